@@ -120,4 +120,4 @@ def test_a_run_that_needs_it_names_the_dataset(
             refused.append(str(error))
     assert bool(refused) != (name in PYTHON_ONLY)
     for text in refused:
-        assert re.search(r"hydro\.h5: /\S+: .*(expect|finite|must|none)", text), text
+        assert re.search(r"hydro\.h5: /\S+: .*(expect|finite|must|missing or empty)", text), text

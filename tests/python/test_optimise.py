@@ -94,7 +94,7 @@ def test_best_damper_in_one_wave(buoy: Path, method: str) -> None:
         ('"mean_power_absorbed"', '"power"', "expected 'mean_power_absorbed'"),
         ("maximise", "minimise = 1\nmaximise", "one of 'maximise' and 'minimise'"),
         ("parameter.damper", "parameter.calls", "'calls' cannot be the name"),
-        ("parameter.damper", "parameter.mean_power_absorbed", "none of best"),
+        ("parameter.damper", "parameter.mean_power_absorbed", "not one of best"),
     ],
 )
 def test_wrong_problems_are_refused(buoy: Path, old: str, new: str, told: str) -> None:

@@ -85,7 +85,8 @@ def test_every_table_and_every_type_is_a_method_with_its_keys() -> None:
         ),
         (
             lambda s: s.body("buoy", center_of_gravity=[0, 0, 0]),
-            "scene.body(\"buoy\"): missing key 'mass' (Mass [kg])",
+            "scene.body(\"buoy\"): missing key 'mass' (Mass, or that of the water displaced in the "
+            "reference pose (equilibrium) [kg])",
         ),
         (
             lambda s: s.body("buoy", mass=1, center_of_gravity=[0, 0, 0], initial={"velo": 1}),

@@ -55,5 +55,5 @@ def test_responses_without_excitation_say_what_is_missing(
         )
     )
     assert model.modes()[0].period == pytest.approx(4.36, abs=0.01)
-    with pytest.raises(DatabaseError, match="holds no excitation, because its source has none"):
+    with pytest.raises(DatabaseError, match="holds no excitation, because its source lacks it"):
         model.response([1.0])

@@ -93,6 +93,25 @@ std::string word(const toml::node& node, const Key& key) {
   return text->get();
 }
 
+/// `expected`: what a value is.
+template <class V>
+void read_or_word(const toml::node& node, const Key& key, const std::string& expected,
+                  ValueOrWord<V>& out) {
+  out.word.clear();
+  const auto* text = node.as_string();
+  if (!text) {
+    read_value(node, key, out.value);
+    return;
+  }
+  out.word = text->get();
+  if (std::find(key.choices.begin(), key.choices.end(), out.word) == key.choices.end()) {
+    std::string words;
+    for (const std::string_view choice : key.choices)
+      words += " or \"" + std::string(choice) + "\"";
+    refuse(key, expected + in_unit(key) + words, node);
+  }
+}
+
 } // namespace
 
 std::string position(const toml::source_region& source) {
@@ -177,6 +196,14 @@ void read_value(const toml::node& node, const Key& key, Matrix6& out) {
     read_vector(rows[i], key, row);
     out.row(static_cast<Eigen::Index>(i)) = row;
   }
+}
+
+void read_value(const toml::node& node, const Key& key, ValueOrWord<double>& out) {
+  read_or_word(node, key, "a number", out);
+}
+
+void read_value(const toml::node& node, const Key& key, ValueOrWord<Vector3>& out) {
+  read_or_word(node, key, "3 numbers", out);
 }
 
 } // namespace hydrodae::io

@@ -41,12 +41,7 @@ template <class V> void read_value(const toml::node& node, const Key& key, std::
 }
 
 /// A string must be one of the words of the key.
-template <class V> void read_value(const toml::node& node, const Key& key, ValueOrWord<V>& out) {
-  out.word.clear();
-  if (node.is_string())
-    read_value(node, key, out.word);
-  else
-    read_value(node, key, out.value);
-}
+void read_value(const toml::node& node, const Key& key, ValueOrWord<double>& out);
+void read_value(const toml::node& node, const Key& key, ValueOrWord<Vector3>& out);
 
 } // namespace hydrodae::io

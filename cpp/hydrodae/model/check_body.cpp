@@ -86,7 +86,7 @@ void check_volume(const Scene& scene, const Body& body) {
 void check_mesh(const Scene& scene, const Body& body) {
   const bool statics = body.hydrostatics == "mesh", waves = body.froude_krylov == "mesh";
   if (!body.mesh && !body.mesh_origin.isZero(0.0))
-    refuse(body, "mesh_origin", "this is the place of a 'mesh', and the body has none");
+    refuse(body, "mesh_origin", "this is the place of a 'mesh': give that file, or leave this out");
   if (body.mesh && !statics)
     refuse(body, "mesh", "a mesh does nothing without hydrostatics = \"mesh\"");
   if (statics && !body.mesh)

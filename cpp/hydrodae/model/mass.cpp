@@ -47,7 +47,7 @@ void fill_in_mass(const Scene& scene, Body& body) {
   if (!volume)
     refuse(entry, "mass",
            body.hydro
-               ? "mass = \"equilibrium\" needs a displaced volume, and the database has none for " +
+               ? "mass = \"equilibrium\" needs a displaced volume, which the database lacks for " +
                      in_quotes(*body.hydro) + "; give the mass in kg, or a 'mesh'"
                : "mass = \"equilibrium\" needs what the body displaces: 'hydro', 'mesh' with "
                  "hydrostatics = \"mesh\", or 'volume'");

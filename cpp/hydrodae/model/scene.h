@@ -159,8 +159,7 @@ struct Body {
         {"mass",
          &B::mass,
          "kg",
-         "Mass; \"equilibrium\": that of the water which the body displaces in the reference pose, "
-         "by its mesh, the database or `volume`.",
+         "Mass, or that of the water displaced in the reference pose (equilibrium).",
          true,
          at_least(0),
          {"equilibrium"}},
@@ -169,9 +168,8 @@ struct Body {
         {"inertia",
          &B::inertia,
          "kg m2",
-         "Moments of inertia Ixx, Iyy, Izz about the centre of gravity; \"mesh\": with the "
-         "products "
-         "those of a solid of uniform density that fills the mesh, about its own centroid.",
+         "Moments of inertia Ixx, Iyy, Izz about the centre of gravity, or those of a solid of "
+         "uniform density that fills `mesh`, about its own centroid (mesh).",
          false,
          at_least(0),
          {"mesh"}},

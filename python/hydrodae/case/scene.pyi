@@ -3132,14 +3132,14 @@ class Scene(SceneBase):
             translations), rigid (6), or a list of free coordinates. Allowed: fixed, planar,
             point, rigid, surge, sway, heave, roll, pitch, yaw.
         mass : number or text, kg
-            Mass; "equilibrium": that of the water which the body displaces in the reference
-            pose, by its mesh, the database or `volume`. Allowed: >= 0 or equilibrium.
+            Mass, or that of the water displaced in the reference pose (equilibrium). Allowed:
+            >= 0 or equilibrium.
         center_of_gravity : 3 numbers, m
             Centre of gravity in the reference pose, world axes.
         inertia : 3 numbers or text, kg m2, default [0, 0, 0]
-            Moments of inertia Ixx, Iyy, Izz about the centre of gravity; "mesh": with the
-            products those of a solid of uniform density that fills the mesh, about its own
-            centroid. Allowed: >= 0 or mesh.
+            Moments of inertia Ixx, Iyy, Izz about the centre of gravity, or those of a solid of
+            uniform density that fills `mesh`, about its own centroid (mesh). Allowed: >= 0 or
+            mesh.
         radii_of_gyration : 3 numbers, m, optional
             Radii r of gyration instead of `inertia`: the moments are m r^2. Allowed: >= 0.
         products_of_inertia : 3 numbers, kg m2, default [0, 0, 0]

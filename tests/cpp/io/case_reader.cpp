@@ -87,7 +87,9 @@ TEST_CASE("a wrong key is told with its place and the nearest name") {
        "case.toml:26:13: unknown key 'angle_dg' in initial of [[joint]] 'hinge' of type revolute; "
        "did you mean "
        "'angle_deg'? (valid: angle_deg, angle_rate)"},
-      {"mass = 10.0\n", "", "case.toml:12:1: missing key 'mass' in [[body]] 'flap' (Mass [kg])"},
+      {"mass = 10.0\n", "",
+       "case.toml:12:1: missing key 'mass' in [[body]] 'flap' (Mass, or that of the water "
+       "displaced in the reference pose (equilibrium) [kg])"},
       {"name = \"flap\"\n", "",
        "case.toml:12:1: missing key 'name' in [[body]] #2 (Name of the body)"},
       {"[solver]\nend_time = 10.0\n", "", "case.toml:1:1: missing table [solver]"},
