@@ -168,8 +168,8 @@ struct Body {
         {"inertia",
          &B::inertia,
          "kg m2",
-         "Moments of inertia Ixx, Iyy, Izz about the centre of gravity, or those of a solid of "
-         "uniform density that fills `mesh`, about its own centroid (mesh).",
+         "Moments of inertia Ixx, Iyy, Izz about the centre of gravity, or those of a uniform "
+         "solid that fills `mesh`, about its own centroid (mesh).",
          false,
          at_least(0),
          {"mesh"}},

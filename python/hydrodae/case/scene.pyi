@@ -3137,9 +3137,8 @@ class Scene(SceneBase):
         center_of_gravity : 3 numbers, m
             Centre of gravity in the reference pose, world axes.
         inertia : 3 numbers or text, kg m2, default [0, 0, 0]
-            Moments of inertia Ixx, Iyy, Izz about the centre of gravity, or those of a solid of
-            uniform density that fills `mesh`, about its own centroid (mesh). Allowed: >= 0 or
-            mesh.
+            Moments of inertia Ixx, Iyy, Izz about the centre of gravity, or those of a uniform
+            solid that fills `mesh`, about its own centroid (mesh). Allowed: >= 0 or mesh.
         radii_of_gyration : 3 numbers, m, optional
             Radii r of gyration instead of `inertia`: the moments are m r^2. Allowed: >= 0.
         products_of_inertia : 3 numbers, kg m2, default [0, 0, 0]
