@@ -110,8 +110,8 @@ TEST_CASE("a wrong key is told with its place and the nearest name") {
 TEST_CASE("a wrong value is told with its place and what was expected") {
   check_messages({
       {"mass = 10.0", "mass = \"heavy\"",
-       "case.toml:15:1: key 'mass' in [[body]] 'flap': expected a number [kg], got the string "
-       "'heavy'"},
+       "case.toml:15:1: key 'mass' in [[body]] 'flap': expected a number [kg] or "
+       "\"equilibrium\", got the string 'heavy'"},
       {"mass = 10.0", "mass = -1",
        "case.toml:15:1: key 'mass' in [[body]] 'flap': must be >= 0 kg, got -1 kg"},
       {"mass = 10.0", "mass = nan",
