@@ -13,6 +13,7 @@ from tests.verification import hulls
 from tests.verification.hull_truths import cap_decay, panel_heave
 
 import hydrodae
+from hydrodae.commands import cli
 
 RHO, GRAVITY = 1000.0, 9.81
 ROOT = Path(__file__).resolve().parents[2]
@@ -271,3 +272,16 @@ def test_an_element_inside_the_mesh_leaves_the_waves_to_it(tmp_path: Path) -> No
     path.write_text(text.replace('motion = "fixed"', f'motion = "fixed"\n{MESH}') + member)
     with pytest.raises(hydrodae.CaseError, match="8 of its 20 pieces lie inside the mesh of body"):
         hydrodae.run(path)
+
+
+@pytest.mark.parametrize(("height", "capsizes"), [(1.2, True), (-0.2, False)])
+def test_a_meshed_body_that_is_top_heavy_is_found(
+    tmp_path: Path, height: float, capsizes: bool, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Box 4 m long, draught 1 m: BM = 4^2 / 12 m in pitch, so it capsizes with G above 0.833 m."""
+    hulls.write_obj(tmp_path / "box.obj", hulls.box(4.0, 2.0, -1.0, 1.5))
+    path = _float(tmp_path, "box.obj", 8000.0, motion="planar", height=height, inertia=1e4)
+    cli.main(["check", str(path)])
+    assert (
+        "body 'float' capsizes: its pitch stiffness" in "".join(capsys.readouterr())
+    ) == capsizes

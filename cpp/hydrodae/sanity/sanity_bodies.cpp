@@ -244,12 +244,12 @@ void judge_stability(const system::System& s, const Rests& rests, const Floating
   if (std::any_of(s.joints.begin(), s.joints.end(), at))
     return;
   Matrix6 K = Matrix6::Zero();
-  for_each_rest(s, rests,
-                [&](const system::ElementList& list, const system::PortData& port,
-                    const element::AtRest& rest) {
-                  if (port.body == body && !list.laws->shape.in_water())
-                    K += rest.stiffness;
-                });
+  for_each_rest(
+      s, rests,
+      [&](const system::ElementList&, const system::PortData& port, const element::AtRest& rest) {
+        if (port.body == body)
+          K += rest.stiffness;
+      });
   for (int k = b.n_translations; k < b.n_active; ++k) {
     const int c = b.active[static_cast<std::size_t>(k)];
     if (c < 5 && K(c, c) < 0.0)
