@@ -155,7 +155,7 @@ def find(name: str, type: str | None = None) -> Table:
     Raises
     ------
     CaseError
-        There is none of this name; the message names the nearest one.
+        No table has this name; the message names the nearest one.
     """
     from hydrodae import _core
 

@@ -178,7 +178,7 @@ def _integrate(
 
 
 def _stamp(path: Path) -> tuple[int, int] | None:
-    """What distinguishes a file from the one that had its name before; None where there is none."""
+    """What distinguishes a file from the one that had its name before; None without a file."""
     try:
         status = path.stat()
     except OSError:

@@ -104,7 +104,7 @@ def claim_folder(path: str | os.PathLike[str]) -> Path:
 
 
 def kind_of(path: Path) -> str | None:
-    """The kind of a file; None where there is none, or an empty one."""
+    """The kind of a file; None for a missing or empty file."""
     if not path.exists():
         return None
     try:

@@ -178,7 +178,7 @@ def _members(body: str, tables: Mapping[str, Any]) -> list[Array]:
 
 
 def _box_of_inertia(entry: Mapping[str, Any]) -> Array | None:
-    """Sides of the solid box of this mass and principal inertia; None if there is none.
+    """Sides of the solid box of this mass and principal inertia; None if no box has them.
 
     I_x = m (b^2 + c^2) / 12, so a^2 = 6 (I_y + I_z - I_x) / m, and so on.
     """

@@ -59,12 +59,11 @@ def run(args: argparse.Namespace) -> int:
     if not args.scale > 0.0:
         raise CaseError(f"--scale {args.scale:g}: expected a factor above 0")
     shift = parse_numbers("--shift", args.shift, 3)
+    panels = args.scale * _panels(args) + np.array(shift)
     try:
-        triangles, notes = closed_surface(
-            args.scale * _panels(args) + np.array(shift), args.freeboard
-        )
+        triangles, notes = closed_surface(panels, args.freeboard)
     except DatabaseError as error:
-        more = "" if args.freeboard else " (--freeboard HEIGHT)" * ("freeboard" in str(error))
+        more = " (--freeboard HEIGHT)" * ("freeboard" in str(error))
         raise DatabaseError(f"{args.source}: {error}{more}") from error
     write_stl(triangles, Path(args.output))
     low, high = triangles[..., 2].min(), triangles[..., 2].max()
@@ -90,5 +89,5 @@ def _panels(args: argparse.Namespace) -> Array:
     check_body(name, database.bodies)
     mesh = database.bodies[name].mesh
     if mesh is None:
-        raise DatabaseError(f"has no panels of {name!r}; give the mesh file itself")
+        raise DatabaseError(f"{args.source}: has no panels of {name!r}; give the mesh file itself")
     return np.asarray(mesh, dtype=float)

@@ -94,7 +94,7 @@ def irregular_findings(database: HydroDatabase, band: Band | None = None) -> lis
     Returns
     -------
     list of Finding
-        None if there is none.
+        Empty where no row is suspect.
     """
     mask = suspect_rows(database)
     if not mask.any():

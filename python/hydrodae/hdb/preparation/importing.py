@@ -168,13 +168,13 @@ def _with_stiffness(
         raise DatabaseError(f"a volume of {alone[0]!r} goes with its stiffness (--stiffness FILE)")
     made = {}
     for name, file in files.items():
-        point = database.reference_point(name)
+        point, given = database.reference_point(name), read_stiffness(file)
         try:
-            made[name] = read_stiffness(file).hydrostatics(
+            made[name] = given.hydrostatics(
                 point, volumes.get(name), database.rho, database.gravity
             )
         except DatabaseError as error:
-            raise DatabaseError(f"{file}: {error}".replace(f"{file}: {file}", f"{file}")) from None
+            raise DatabaseError(f"{file}: {error}") from None
     return database.with_hydrostatics(made)
 
 

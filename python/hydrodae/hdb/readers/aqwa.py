@@ -33,7 +33,7 @@ Complex = NDArray[np.complex128]
 
 
 def aqwa_file(path: Path) -> Path | None:
-    """Return the file of AQWA that is meant by a file or folder; None if there is none.
+    """Return the file of AQWA that is meant by a file or folder; None without one.
 
     Of a folder it is the one `.AH1`, else the one `.LIS`.
 

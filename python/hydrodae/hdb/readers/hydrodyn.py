@@ -49,7 +49,7 @@ def hydrodyn_of(stem: Path) -> HydroDyn | None:
     Returns
     -------
     HydroDyn or None
-        None if there is none, or several that differ.
+        None without one, or with several that differ.
     """
     folder = stem.parent
     for _ in range(ABOVE + 1):

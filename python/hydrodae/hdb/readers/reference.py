@@ -133,7 +133,7 @@ def reference_by_statics(data: SourceData, body: str, found: FileHydrostatics) -
 
 
 def _moment_over_k(data: SourceData, body: str, found: FileHydrostatics) -> float | None:
-    """Im FK_5 / (k cos beta) in the longest wave, [N m]; None if there is none long enough."""
+    """Im FK_5 / (k cos beta) in the longest wave, [N m]; None without one long enough."""
     label, force = f"{body}.pitch", data.froude_krylov
     if force is None and data.excitation is not None and data.diffraction is not None:
         force = data.excitation - data.diffraction

@@ -69,7 +69,7 @@ def fit_tail(omega: ArrayLike, damping: ArrayLike) -> Tail:
     line, _, scatter = _fit(design[:, :2], logs)
     curve, curve_power, curve_scatter = _fit(design, logs)
     clean = one_sign & (np.minimum(scatter, curve_scatter) < TAIL_SCATTER) & (line > 0.5)
-    # smooth tables tell the next term too, B ~ c u^n exp(d (u^2 - 1)), u = w_max/w: take the one
+    # smooth tables determine the next term too, B ~ c u^n exp(d (u^2 - 1)), u = w_max/w: take the
     # power that encloses the same area
     d = curve_power[2]
     smooth = (curve_scatter < 1e-3) & (np.abs(curve - line) < 1.0) & (np.abs(d) < 0.5)

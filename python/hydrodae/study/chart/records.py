@@ -26,7 +26,7 @@ class Run:
     reason : str
         First line of the solver's message; empty if it went well.
     error : float or None
-        Largest difference relative to the largest excursion, -; None if there is none to show.
+        Largest difference relative to the largest excursion, -; None without one to show.
     reference : str
         What the error was measured against.
     time : float or None
