@@ -32,31 +32,32 @@ Matrix6 tangent_gradient(const Matrix3& R, const Vector6& load, const Matrix6& b
 
 } // namespace
 
-/// A workspace for the time of one evaluation.
+/// A scratch for the time of one evaluation.
 class HullList::Borrowed {
 public:
   explicit Borrowed(const Body& body) : pool_(*body.pool) {
     {
       const std::lock_guard lock(pool_.guard);
       if (!pool_.idle.empty()) {
-        work_ = std::move(pool_.idle.back());
+        scratch_ = std::move(pool_.idle.back());
         pool_.idle.pop_back();
       }
     }
-    if (!work_)
-      work_ = std::make_unique<hull::Workspace>(*body.mesh, body.field);
+    if (!scratch_)
+      scratch_ = std::make_unique<Scratch>(
+          Scratch{hull::Workspace(*body.mesh, body.field), false, {}, {}, {}});
   }
   ~Borrowed() {
     const std::lock_guard lock(pool_.guard);
-    pool_.idle.push_back(std::move(work_));
+    pool_.idle.push_back(std::move(scratch_));
   }
   Borrowed(const Borrowed&) = delete;
   Borrowed& operator=(const Borrowed&) = delete;
-  hull::Workspace& operator*() const { return *work_; }
+  Scratch* operator->() const { return scratch_.get(); }
 
 private:
   Pool& pool_;
-  std::unique_ptr<hull::Workspace> work_;
+  std::unique_ptr<Scratch> scratch_;
 };
 
 HullList::HullList(const hull::Water& water, std::vector<hull::Wave> waves, double ramp_time)
@@ -85,14 +86,34 @@ void HullList::add(const std::string& name, std::shared_ptr<const hull::Mesh> me
 
 hull::Instant HullList::instant(double t) const { return {t, sea::ramp(t, ramp_time_)}; }
 
+hull::Loads HullList::loads(const Body& body, double t, const hull::Pose& pose,
+                            Matrix6* by_pose) const {
+  const Borrowed scratch(body);
+  const hull::Instant now = instant(t);
+  if (by_pose)
+    return hull::loads(*body.mesh, body.field, pose, now, scratch->work, by_pose);
+  const bool same = scratch->known && scratch->instant.time == now.time &&
+                    scratch->instant.growth == now.growth &&
+                    scratch->pose.position == pose.position &&
+                    scratch->pose.rotation == pose.rotation;
+  if (!same) {
+    scratch->known = false; // where the next line throws
+    scratch->loads = hull::loads(*body.mesh, body.field, pose, now, scratch->work);
+    scratch->pose = pose;
+    scratch->instant = now;
+    scratch->known = true;
+  }
+  return scratch->loads;
+}
+
 /// -rho g integral z dV over the displaced volume, by Gauss's theorem over the wet surface; exact,
 /// since z^2 is of degree 2.
 double HullList::potential(const Body& body, const hull::Pose& pose) const {
   if (!waves_.empty())
     return 0.0;
   const Borrowed scratch(body);
-  hull::find_wet_surface(*body.mesh, body.field, pose, {}, false, *scratch);
-  const hull::WetPoints& p = (*scratch).points;
+  hull::find_wet_surface(*body.mesh, body.field, pose, {}, false, scratch->work);
+  const hull::WetPoints& p = scratch->work.points;
   double sum = 0.0;
   for (int k = 0; k < p.size; ++k)
     sum += 0.5 * p.height[k] * p.height[k] * p.weight(k, 2);
@@ -104,8 +125,7 @@ void HullList::evaluate(double t, const double* in, const double*, double* out) 
     Eigen::Map<Vector6> load(out);
     if (body.moves) {
       const element::BodyState<double> b = element::read_body(in);
-      const Borrowed scratch(body);
-      const hull::Loads l = hull::loads(*body.mesh, body.field, pose_of(b), instant(t), *scratch);
+      const hull::Loads l = loads(body, t, pose_of(b));
       load = tangent_load(b.R, l.hydrostatic + l.dynamic);
     } else {
       load.setZero();
@@ -124,9 +144,7 @@ void HullList::evaluate(double t, const Dual* in, const double*, Dual* out) cons
     Matrix6 by_pose = Matrix6::Zero();
     Vector6 load = Vector6::Zero(), change = Vector6::Zero();
     if (body.moves) {
-      const Borrowed scratch(body);
-      const hull::Loads l =
-          hull::loads(*body.mesh, body.field, pose_of(b), instant(t), *scratch, &by_pose);
+      const hull::Loads l = loads(body, t, pose_of(b), &by_pose);
       load = tangent_load(b.R, l.hydrostatic + l.dynamic);
       const element::BodyState<Dual> d = element::read_body(in);
       Matrix3 dR;
@@ -149,10 +167,8 @@ void HullList::jacobian(double t, const double* in, const double*, double* jacob
     J.setZero();
     if (body.moves) {
       const element::BodyState<double> b = element::read_body(in);
-      const Borrowed scratch(body);
       Matrix6 by_pose = Matrix6::Zero();
-      const hull::Loads l =
-          hull::loads(*body.mesh, body.field, pose_of(b), instant(t), *scratch, &by_pose);
+      const hull::Loads l = loads(body, t, pose_of(b), &by_pose);
       J.leftCols<6>() =
           tangent_gradient(b.R, tangent_load(b.R, l.hydrostatic + l.dynamic), by_pose);
     }
@@ -168,15 +184,14 @@ void HullList::energy(const double* in, const double*, double* joules) const {
   }
 }
 
-void HullList::report(double t, const double* in, const double*, double* loads) const {
+void HullList::report(double t, const double* in, const double*, double* out) const {
   for (const Body& body : bodies_) {
     const element::BodyState<double> b = element::read_body(in);
-    const Borrowed scratch(body);
-    const hull::Loads l = hull::loads(*body.mesh, body.field, pose_of(b), instant(t), *scratch);
+    const hull::Loads l = loads(body, t, pose_of(b));
     const auto put = [&](const Vector6& wrench) {
-      Eigen::Map<Vector6> load(loads);
+      Eigen::Map<Vector6> load(out);
       load = tangent_load(b.R, wrench);
-      loads += 6;
+      out += 6;
     };
     put(l.hydrostatic + l.dynamic);
     if (!parts.empty()) {

@@ -35,7 +35,7 @@ public:
   void jacobian(double t, const double* in, const double*, double* jacobian) const override;
   void energy(const double* in, const double*, double* joules) const override;
   void observe(double, const double*, const double*, const double*, double*) const override {}
-  void report(double t, const double* in, const double* out, double* loads) const override;
+  void report(double t, const double* in, const double*, double* out) const override;
   bool lost_at_rest(std::size_t) const override { return false; }
   element::WavesFelt waves() const override;
   double elevation(double t) const override;
@@ -44,10 +44,19 @@ public:
   stirred(const std::function<double()>& draw) const override;
 
 private:
-  /// Workspaces that wait for their next use.
+  /// What an evaluation works with, and the last loads without a gradient: a sample asks for the
+  /// same ones several times.
+  struct Scratch {
+    hull::Workspace work;
+    bool known = false;
+    hull::Pose pose;
+    hull::Instant instant;
+    hull::Loads loads;
+  };
+  /// Those that wait for their next use.
   struct Pool {
     std::mutex guard;
-    std::vector<std::unique_ptr<hull::Workspace>> idle;
+    std::vector<std::unique_ptr<Scratch>> idle;
   };
   struct Body {
     std::string name;
@@ -62,6 +71,8 @@ private:
 
   std::shared_ptr<HullList> with(std::vector<hull::Wave> waves, double ramp_time) const;
   hull::Instant instant(double t) const;
+  hull::Loads loads(const Body& body, double t, const hull::Pose& pose,
+                    Matrix6* by_pose = nullptr) const;
   double potential(const Body& body, const hull::Pose& pose) const;
 
   hull::Water water_;
