@@ -39,6 +39,7 @@ def test_nonlinear_hydrodynamics_takes_the_surface(two_bodies: Path, tmp_path: P
         "mesh",
     )
     assert "mesh" not in other
+    assert "geometryFile" not in str(converted.remarks.of("not needed"))
     found = read_mesh(tmp_path / "case" / "float.stl")
     lowest, highest = found.reshape(-1, 3).min(axis=0), found.reshape(-1, 3).max(axis=0)
     np.testing.assert_allclose(lowest, [-4.0, -5.0, -2.5 - 1.5])

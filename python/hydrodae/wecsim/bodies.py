@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -145,7 +146,9 @@ class Bodies:
         elif shift.any() or rotation.any():
             self._left_out(item, "initial.displacement", "start of a body that is fixed")
         text.table("[[body]]", keys, f"{item.title}{comment}")
-        self._notes(item)
+        if "mesh" in keys:
+            item.used.add("geometryFile")
+        self._notes(item, keys)
         if motion != "fixed":
             self._damping(text, item, name)
         self._morison(text, item, number, name)
@@ -188,7 +191,7 @@ class Bodies:
                     f"{self.read.place(item.line_of('mass'))}: {item.title}.mass is 'equilibrium', "
                     "but no displaced volume is known"
                 )
-            return "equilibrium", f": V = {volume:.6g} m3, mass {self.rho * volume:.6g} kg"
+            return "equilibrium", f": stated volume {volume:.6g} m3"
         if isinstance(value, float | np.ndarray):
             return item.number_of("mass"), ""
         if isinstance(value, str) and value.lower() in ("fixed", "user"):
@@ -210,7 +213,7 @@ class Bodies:
             keys["products_of_inertia"] = products[[0, 2, 1]]
         return keys
 
-    def _notes(self, item: Item) -> None:
+    def _notes(self, item: Item, keys: Mapping[str, Any]) -> None:
         remarks = self.read.remarks
         for field, text in LACKING.items():
             if np.any(item.vector(field, [0.0]) != 0.0):
@@ -219,7 +222,7 @@ class Bodies:
             if field.startswith("variableHydro."):
                 item.used.add(field)
         for field, why in IDLE.items():
-            if field in item.entries:
+            if field in item.entries and not (field == "geometryFile" and "mesh" in keys):
                 item.used.add(field)
                 place = self.read.place(item.line_of(field))
                 remarks.not_needed(place, f"{item.title}.{field}" + (f" ({why})" if why else ""))
