@@ -91,12 +91,14 @@ element::Overload heaviest(const LineView<double>& at) {
   return out;
 }
 
-/// Lines that are at rest at each instant.
+/// Lines that are at rest at each instant. Each keeps where it was last, so that the next search is
+/// short: one thread at a time.
 class LineStatics final : public element::Elements {
 public:
   LineStatics(const LineList& of, std::vector<LineModel> models, sea::WaveField still,
               std::vector<Vector3> free_ends)
-      : models_(std::move(models)), still_(std::move(still)), free_ends_(std::move(free_ends)) {
+      : models_(std::move(models)), still_(std::move(still)), free_ends_(std::move(free_ends)),
+        last_(models_.size()) {
     type = of.type;
     names = of.names;
     shape = {element::Port::points, of.shape.width, 0, 0};
@@ -116,7 +118,7 @@ public:
         x[i] = in[i].a;
         change[i] = in[i].b;
       }
-      const LineAtRest at = rest(k, x.data(), true);
+      const LineAtRest& at = rest(k, x.data(), true);
       change = (at.slope * change).eval();
       for (Index i = 0; i < w; ++i)
         out[i] = Dual(at.load[i], change[i]);
@@ -141,12 +143,14 @@ public:
   bool lost_at_rest(std::size_t) const override { return false; }
 
 private:
-  LineAtRest rest(std::size_t k, const double* x, bool slope) const {
-    return line_at_rest(models_[k], still_, x, free_ends_[k], names[k], slope);
+  const LineAtRest& rest(std::size_t k, const double* x, bool slope) const {
+    last_[k] = line_at_rest(models_[k], still_, x, free_ends_[k], names[k], slope, &last_[k]);
+    return last_[k];
   }
   std::vector<LineModel> models_;
   sea::WaveField still_;
   std::vector<Vector3> free_ends_;
+  mutable std::vector<LineAtRest> last_;
 };
 
 } // namespace

@@ -1,16 +1,14 @@
 #include "hydrodae/line/line_statics.h"
 
-#include <Eigen/SparseLU>
 #include <algorithm>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/math/band_matrix.h"
 
 namespace hydrodae::line {
 
 namespace {
-
-using Sparse = Eigen::SparseMatrix<double>;
 
 /// Accelerations of the nodes at rest, and what they follow from.
 class Rest {
@@ -19,7 +17,8 @@ public:
       : m_(m), sea_(sea), x_(x), still_(VectorX::Zero(3 * m.n_points())),
         z(VectorX::Zero(6 * m.n_unknown())), load(VectorX::Zero(3 * m.n_points())),
         rates_(z.size()), force_(3 * (m.n() + 1)), sparsity_(line_sparsity(m)),
-        values_(static_cast<Index>(sparsity_.size())) {}
+        values_(static_cast<Index>(sparsity_.size())), matrix_(3 * m.n_unknown(), m.bends ? 8 : 5) {
+  }
 
   void place(const VectorX& places) {
     for (int i = 0; i < m_.n_unknown(); ++i)
@@ -34,35 +33,31 @@ public:
   }
   /// On the nodes that move, at the places of the last `accelerations`.
   VectorX forces() const { return force_.segment(3, 3 * m_.n_unknown()); }
-  /// -d accelerations / d places + sigma; by the ends' places, and the loads by both.
-  Sparse matrix(double sigma) {
-    line_jacobian(view(), sea_, 0.0, rates_.data(), blocks_, values_.data());
-    std::vector<Eigen::Triplet<double>> entries;
+  /// a = (-d accelerations / d places + sigma)^-1 a. @returns whether it could be solved
+  bool solve(double sigma, Eigen::Ref<MatrixX> a) {
+    if (!factorise(sigma))
+      return false;
+    matrix_.solve(a);
+    return true;
+  }
+  /// d load / d ends, as the nodes follow. @returns whether they do
+  bool slope(double sigma, MatrixX& out) {
+    if (!factorise(sigma))
+      return false;
     const int w = 3 * m_.n_points(), n = 3 * m_.n_unknown();
-    by_end = MatrixX::Zero(n, w);
-    load_by_end = MatrixX::Zero(w, w);
-    load_by_node = MatrixX::Zero(w, n);
-    for (std::size_t k = 0; k < sparsity_.size(); ++k) {
-      const auto [row, column] = sparsity_[k];
-      const int r = row - w, c = column - 2 * w;
-      const double value = values_[static_cast<Index>(k)];
-      if ((r >= 0 && r % 6 < 3) || (c >= 0 && c % 6 >= 3) || (c < 0 && column >= w))
-        continue; // rows of places, columns of velocities
-      const int i = 3 * (r / 6) + r % 6 - 3, j = 3 * (c / 6) + c % 6;
-      if (r >= 0 && c >= 0)
-        entries.emplace_back(i, j, -value);
-      else if (r >= 0)
-        by_end(i, column) = value;
-      else if (c >= 0)
-        load_by_node(row, j) = value;
-      else
-        load_by_end(row, column) = value;
-    }
-    for (int i = 0; i < n; ++i)
-      entries.emplace_back(i, i, sigma);
-    Sparse out(n, n);
-    out.setFromTriplets(entries.begin(), entries.end());
-    return out;
+    MatrixX nodes = MatrixX::Zero(n, w), by_nodes = MatrixX::Zero(w, n);
+    out = MatrixX::Zero(w, w);
+    for_each_derivative([&](int i, int j, double value) {
+      if (i < w && j < w)
+        out(i, j) = value;
+      else if (i < w)
+        by_nodes(i, j - w) = value;
+      else if (j < w)
+        nodes(i - w, j) = value;
+    });
+    matrix_.solve(nodes);
+    out += by_nodes * nodes;
+    return true;
   }
   double largest_tension() const {
     double most = 0.0;
@@ -73,6 +68,30 @@ public:
   LineView<double> view() const { return {m_, x_, still_.data(), z.data()}; }
 
 private:
+  /// Visits d (load, acceleration) / d (end, node) at the places of the last `accelerations`, by
+  /// row and column: ends first.
+  template <class Visit> void for_each_derivative(Visit&& visit) const {
+    const int w = 3 * m_.n_points();
+    for (std::size_t k = 0; k < sparsity_.size(); ++k) {
+      const auto [row, column] = sparsity_[k];
+      const int r = row - w, c = column - 2 * w;
+      if ((r >= 0 && r % 6 < 3) || (c >= 0 && c % 6 >= 3) || (c < 0 && column >= w))
+        continue; // rows of places, columns of velocities
+      visit(r < 0 ? row : w + 3 * (r / 6) + r % 6 - 3, c < 0 ? column : w + 3 * (c / 6) + c % 6,
+            values_[static_cast<Index>(k)]);
+    }
+  }
+  bool factorise(double sigma) {
+    line_jacobian(view(), sea_, 0.0, rates_.data(), blocks_, values_.data());
+    const int w = 3 * m_.n_points();
+    matrix_.set_zero();
+    for_each_derivative([&](int i, int j, double value) {
+      if (i >= w && j >= w)
+        matrix_(i - w, j - w) = (i == j ? sigma : 0.0) - value;
+    });
+    return matrix_.factorise();
+  }
+
   const LineModel& m_;
   const sea::WaveField& sea_;
   const double* x_;
@@ -80,12 +99,12 @@ private:
 
 public:
   VectorX z, load;
-  MatrixX by_end, load_by_end, load_by_node;
 
 private:
   VectorX rates_, force_;
   std::vector<std::array<int, 2>> sparsity_;
   VectorX values_;
+  BandMatrix matrix_; ///< a force reaches one node on either side, two where the line bends
   LineBlocks blocks_;
 };
 
@@ -97,7 +116,6 @@ double largest_of(const VectorX& a) { return a.allFinite() ? a.cwiseAbs().maxCoe
 /// @returns whether it came to rest
 bool find_directly(Rest& rest, VectorX& places, double longest, double enough, double floor) {
   constexpr int most_steps = 40;
-  Eigen::SparseLU<Sparse> lu;
   double before = HUGE_VAL;
   for (int step = 0; step < most_steps; ++step) {
     rest.place(places);
@@ -106,10 +124,9 @@ bool find_directly(Rest& rest, VectorX& places, double longest, double enough, d
     if (now <= enough || (now <= floor && now >= 0.5 * before))
       return true;
     before = now;
-    lu.compute(rest.matrix(0.0));
-    if (!std::isfinite(now) || lu.info() != Eigen::Success)
+    VectorX change = a;
+    if (!std::isfinite(now) || !rest.solve(0.0, change))
       return false;
-    VectorX change = lu.solve(a);
     const double most = largest_of(change);
     if (!std::isfinite(most))
       return false;
@@ -124,7 +141,6 @@ bool find_directly(Rest& rest, VectorX& places, double longest, double enough, d
 bool descend(Rest& rest, VectorX& places, double longest, double start, double enough,
              double floor) {
   constexpr int most_steps = 400, most_cuts = 30;
-  Eigen::SparseLU<Sparse> lu;
   double sigma = start, before = HUGE_VAL;
   for (int step = 0; step < most_steps; ++step) {
     rest.place(places);
@@ -134,8 +150,8 @@ bool descend(Rest& rest, VectorX& places, double longest, double start, double e
       return true;
     before = now;
     const VectorX f = rest.forces();
-    lu.compute(rest.matrix(sigma));
-    VectorX d = lu.info() == Eigen::Success ? VectorX(lu.solve(a)) : a;
+    VectorX d = a;
+    rest.solve(sigma, d);
     double slope = f.dot(d);
     if (!(slope > 0.0) || !d.allFinite()) { // no way down: a shorter step along the accelerations
       sigma = std::max(10.0 * sigma, start);
@@ -207,13 +223,33 @@ void stiffen(const LineModel& m, const sea::WaveField& sea, const double* x, con
   }
 }
 
+/// Where the nodes are if they follow the ends from where they were at rest.
+VectorX follow(const LineModel& m, const double* x, const LineAtRest& before) {
+  VectorX places(3 * m.n_unknown());
+  for (int i = 1; i <= m.n_unknown(); ++i) {
+    const double s = m.free_end ? 0.0 : m.nodes[static_cast<std::size_t>(i)].at / m.nodes.back().at;
+    for (int c = 0; c < 3; ++c) {
+      const double a = x[c] - before.ends[c], b = m.free_end ? 0.0 : x[3 + c] - before.ends[3 + c];
+      places[3 * (i - 1) + c] = before.z[6 * (i - 1) + c] + (1.0 - s) * a + s * b;
+    }
+  }
+  return places;
+}
+
 void find_rest(const LineModel& m, const sea::WaveField& sea, const double* x, Rest& rest,
-               VectorX& places, const std::string& name) {
+               const Vector3& free_end, const LineAtRest* before, const std::string& name) {
+  VectorX places = line_shape(m, x, free_end);
   const RestScales size(m, places);
   const auto directly = [&] {
     return find_directly(rest, places, size.shortest, 1e-13 * size.g, size.floor);
   };
   const VectorX first = places;
+  if (before && before->z.size() > 0) {
+    places = follow(m, x, *before);
+    if (directly())
+      return;
+    places = first;
+  }
   if (directly())
     return;
   places = first;
@@ -236,18 +272,21 @@ void find_rest(const LineModel& m, const sea::WaveField& sea, const double* x, R
 } // namespace
 
 LineAtRest line_at_rest(const LineModel& m, const sea::WaveField& sea, const double* x,
-                        const Vector3& free_end, const std::string& name, bool with_slope) {
-  VectorX places = line_shape(m, x, free_end);
+                        const Vector3& free_end, const std::string& name, bool with_slope,
+                        const LineAtRest* before) {
   Rest rest(m, sea, x);
-  find_rest(m, sea, x, rest, places, name);
-  LineAtRest out{rest.z, rest.load, {}, rest.largest_tension()};
+  find_rest(m, sea, x, rest, free_end, before, name);
+  LineAtRest out{Eigen::Map<const VectorX>(x, 3 * m.n_points()),
+                 rest.z,
+                 rest.load,
+                 {},
+                 rest.largest_tension()};
   if (with_slope) { // a slack piece has no stiffness of its own across
-    Eigen::SparseLU<Sparse> lu(rest.matrix(0.0));
-    for (double sigma = 1e-9; lu.info() != Eigen::Success && sigma < 1.0; sigma *= 10.0)
-      lu.compute(rest.matrix(sigma));
-    if (lu.info() != Eigen::Success)
+    bool found = rest.slope(0.0, out.slope);
+    for (double sigma = 1e-9; !found && sigma < 1.0; sigma *= 10.0)
+      found = rest.slope(sigma, out.slope);
+    if (!found)
       throw ModelError("force." + name, "line " + in_quotes(name) + " has no stiffness at rest");
-    out.slope = rest.load_by_end + rest.load_by_node * MatrixX(lu.solve(rest.by_end));
   }
   return out;
 }

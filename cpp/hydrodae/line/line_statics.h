@@ -7,6 +7,7 @@ namespace hydrodae::line {
 
 /// A line with the ends at x (3 n_points,), in water without waves.
 struct LineAtRest {
+  VectorX ends;       ///< x
   VectorX z;          ///< (6 n_unknown,) states, at rest
   VectorX load;       ///< (3 n_points,) on the ends [N]
   MatrixX slope;      ///< (3 n_points, 3 n_points) d load / dx
@@ -21,7 +22,9 @@ VectorX line_shape(const LineModel& model, const double* x, const Vector3& free_
 /// where it does not converge (pseudo-transient continuation: Kelley and Keyes, SIAM J. Numer.
 /// Anal. 35 (1998) 508). Friction of the seabed does not act at rest. Throws ModelError about
 /// `name`.
+/// @param before  the line at rest with its ends elsewhere, from which the search begins; or null
 LineAtRest line_at_rest(const LineModel& model, const sea::WaveField& sea, const double* x,
-                        const Vector3& free_end, const std::string& name, bool with_slope);
+                        const Vector3& free_end, const std::string& name, bool with_slope,
+                        const LineAtRest* before = nullptr);
 
 } // namespace hydrodae::line
