@@ -177,7 +177,7 @@ ExitCode perform(const Arguments& arguments) {
     std::cout << hydrodae::examine(scene);
     return ExitCode::done;
   } catch (const hydrodae::ModelError& error) {
-    throw hydrodae::CaseError(hydrodae::model::located(scene, error));
+    throw hydrodae::model::located(scene, error);
   }
 }
 

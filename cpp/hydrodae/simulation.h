@@ -64,6 +64,9 @@ struct RunStatistics {
 /// coordinates that nothing moves, and what could be modelled with less. Throws ModelError.
 std::string examine(const model::Scene& scene);
 
+/// The sizes of its equations that `examine` shows, by name. Throws ModelError.
+std::vector<std::pair<std::string, long>> count(const model::Scene& scene);
+
 /// How a run is made, apart from its scene.
 struct RunOptions {
   /// Method of the second run, at the tolerance of the first; empty: the method of the first at

@@ -104,7 +104,7 @@ Answer perform(const std::string& tasks, const std::string& folder) {
     if (writes || tasks.find('r') != std::string::npos)
       answer = run(scene, writes ? results : "");
   } catch (const hydrodae::ModelError& error) {
-    throw hydrodae::CaseError(hydrodae::model::located(scene, error));
+    throw hydrodae::model::located(scene, error);
   }
   return answer;
 }

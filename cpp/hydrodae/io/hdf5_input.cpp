@@ -81,7 +81,7 @@ Input::Input(const std::string& path) : path_(path) {
 }
 
 void Input::refuse(const std::string& object, const std::string& message) const {
-  throw CaseError(path_ + ": " + object + ": " + message);
+  throw CaseError({path_}, "", object + ": " + message);
 }
 
 bool Input::has_object(const std::string& object) const {

@@ -59,6 +59,11 @@ struct JointType {
 
   bool turns() const { return has(true); }
   bool slides() const { return has(false); }
+  bool welds() const { return rows.size() == 6; }
+  /// Does it leave a slide along one axis alone?
+  bool guides() const {
+    return rows.size() == 5 && motions.size() == 1 && motions[0].kind == FreeMotion::Kind::slides;
+  }
   /// Does it join a point of A to another of B?
   bool has_two_points() const {
     for (const FreeMotion& motion : motions)

@@ -31,6 +31,9 @@ struct MethodTraits {
 /// All methods, those that choose their steps first, by how far the stability map trusts them.
 const std::vector<MethodTraits>& methods();
 
+/// Of a method by name; null where the scene chooses it ("auto").
+const MethodTraits* find_method(std::string_view name);
+
 /// Of a method by name; "auto" has none.
 const MethodTraits& method_traits(std::string_view name);
 
