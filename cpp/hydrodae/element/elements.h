@@ -155,6 +155,8 @@ public:
 
   std::string_view type; ///< as in case files; "hydrostatic" and such for those of the water
   Shape shape;
+  bool buoyant = false;          ///< the pressure of still water
+  bool moors = false;            ///< a mooring as a matrix; what acts between points moors, too
   bool absorbs = false;          ///< a power take-off: what it takes is a device's output
   Work work = Work::spent;       ///< of the loads
   std::string_view at_rest_only; ///< why its slope at rest tells little; empty: it does not

@@ -20,9 +20,10 @@ constexpr double step_edge = 0.02;
 
 /// By the start, where the method is "auto".
 void Simulation::choose_method() {
-  if (options_.method == "auto" && options_.coordinates == "reduced")
+  const bool chosen_here = !model::find_method(options_.method);
+  if (chosen_here && options_.coordinates == "reduced")
     methods_ = MethodChoice(MethodOrder{{"explicit_rk"}, "no other has reduced coordinates"});
-  else if (options_.method == "auto")
+  else if (chosen_here)
     methods_ = MethodChoice(order_methods(find_traits(regime_, pattern_, options_, y_, yp_)));
   use_method();
 }

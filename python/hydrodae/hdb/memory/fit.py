@@ -17,7 +17,7 @@ from hydrodae.hdb.memory.band import default_band
 from hydrodae.hdb.memory.blocks import SYMMETRIC, FittedGroup, fit_group, sizes
 from hydrodae.hdb.memory.clock import SEARCH, TIME_LIMIT, Clock
 from hydrodae.hdb.memory.data import ImpedanceData, RadiationData
-from hydrodae.hdb.memory.goal import Goal, Progress, Quality, measure, stored_quality
+from hydrodae.hdb.memory.goal import METHODS, Goal, Progress, Quality, measure, stored_quality
 from hydrodae.hdb.memory.model import ExponentialMemory
 from hydrodae.hdb.memory.modes import IntArray, Searches
 from hydrodae.hdb.memory.noise import noise
@@ -145,7 +145,7 @@ def fit_memory(
         if outputs is None
         else inputs + tuple(label for label in outputs if label not in inputs)
     )
-    if method not in ("auto", "modes", "hankel"):
+    if method not in METHODS:
         raise DatabaseError(f"memory fit: method {method!r}: expected auto, modes or hankel")
     if uniform is not None and not uniform > 0.0:
         raise DatabaseError(f"memory fit: uniform {uniform:g}: expected a number > 0")
@@ -161,7 +161,7 @@ def fit_memory(
         target_outside,
         max_states,
         uniform,
-        method,
+        METHODS[method],
     )
     groups, neglected = prepare.uncoupled_groups(data, COUPLING)
     say = progress or (lambda message: None)

@@ -36,6 +36,21 @@ class Quality:
 
 
 @dataclass(frozen=True)
+class Method:
+    """Ways of fitting that may be tried."""
+
+    by_modes: bool
+    by_realisation: bool
+
+
+METHODS = {
+    "auto": Method(by_modes=True, by_realisation=True),
+    "modes": Method(by_modes=True, by_realisation=False),
+    "hankel": Method(by_modes=False, by_realisation=True),
+}
+
+
+@dataclass(frozen=True)
 class Goal:
     """What a fit must reach.
 
@@ -52,7 +67,7 @@ class Goal:
     uniform
         If not None, the goal is another: the largest error of H in the band over its largest entry.
     method
-        auto, modes or hankel.
+        What may be tried.
     """
 
     band: tuple[float, float]
@@ -61,7 +76,7 @@ class Goal:
     target_outside: float
     max_states: int | None
     uniform: float | None = None
-    method: str = "auto"
+    method: Method = METHODS["auto"]
 
     @property
     def floor(self) -> float:

@@ -60,9 +60,9 @@ def fit_problem(
     say
         Called with one line per stage.
     """
-    if goal.method == "hankel":
+    if not goal.method.by_modes:
         return _realised(problem, goal, cap, say)[0]
-    if goal.method == "auto" and many:
+    if goal.method.by_realisation and many:
         return _fit_many(problem, goal, cap, say)
     poles, least = rich_poles(problem, goal, say)
     candidates = list(poles.values())[-3:]
@@ -78,7 +78,7 @@ def fit_problem(
             return kept[-1]
     if not kept and least <= NOISE:
         kept = _tamed(problem, goal, cap, poles, say)
-    if not kept and goal.method == "auto":
+    if not kept and goal.method.by_realisation:
         fit, passive = _realised(problem, goal, cap, say)
         kept = [fit] if passive else []
     if not kept:
