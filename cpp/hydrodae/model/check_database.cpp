@@ -38,7 +38,7 @@ void check_wet_body(const hydro::Database& database, const Body& body) {
                      suggestion(*body.hydro, names));
   }
   check_reference_point(body, *entry);
-  if (moves(body) && body.hydrostatics == "linear" && !entry->hydrostatics)
+  if (moves(body) && !body.hydrostatics_by_mesh() && !entry->hydrostatics)
     refuse(body, database.path + " holds no hydrostatics of " + in_quotes(*body.hydro) +
                      ", and a body that moves needs them");
 }
