@@ -131,8 +131,8 @@ def test_a_database_from_python_is_read(case):
         (
             'motion = "heave"',
             'motion = ["heave", "pitch"]\ninertia = [0, 5, 0]',
-            (3, 1),
-            "hydro.radiation",
+            (4, 1),
+            "hydro.database",
             "no exponential fit in hydro.h5 covers all coordinates that move; "
             "'heave' lacks float.surge, float.pitch; make one with: hydrodae hdb fit hydro.h5 "
             "all=float.surge,float.heave,float.pitch",
@@ -364,7 +364,7 @@ def _unstable(file: h5py.File) -> None:
     [
         (_drop_hydrostatics, "case.toml:11:1: body 'buoy': hydro.h5 holds no hydrostatics"),
         (_newer, "case.toml:4:1: key 'database' in [hydro]: hydro.h5: /: format_version is 2"),
-        (_no_fits, "case.toml:3:1: hydro.h5 holds no exponential fit; make one with: hydrodae hdb"),
+        (_no_fits, "case.toml:4:1: hydro.h5 holds no exponential fit; make one with: hydrodae hdb"),
         (
             _unstable,
             "case.toml:4:1: key 'database' in [hydro]: hydro.h5: /memory/heave/poles: pole ",

@@ -29,6 +29,7 @@ LinearMatrices linear_matrices(const system::Regime& regime, const system::Patte
 struct Rest {
   VectorX y;                               ///< with the reactions
   std::vector<system::Regime::Mode> modes; ///< (n_switches,) which stops hold
+  std::string instability;                 ///< the note of it, where the pose is unstable
 };
 
 /// Newton's method on forces(q, lambda) = 0, g(q) = 0 from the start of the system, without waves,

@@ -265,7 +265,7 @@ TEST_CASE("the memory fit with the fewest states that covers what moves") {
                  "'heave' lacks float.surge, float.sway, float.roll, float.pitch, "
                  "float.yaw"));
   w.database->fits.clear();
-  CHECK(contains(verdict(w.scene), "hydro.radiation: hydro.h5 holds no exponential fit"));
+  CHECK(contains(verdict(w.scene), "hydro.database: hydro.h5 holds no exponential fit"));
 }
 
 TEST_CASE("a summary shows what is in the scene") {
