@@ -52,13 +52,16 @@ double size_of(const model::Scene& scene, const system::System& s, std::size_t i
 /// Distance of a marker from the centre of gravity of its body: of its axis where it may stand
 /// anywhere along it.
 double distance(const system::JointData& j, const joint::Marker& marker) {
-  const auto slides = [](const joint::FreeMotion& m) {
-    return m.kind == joint::FreeMotion::Kind::slides && m.axis == joint::Z;
+  const auto slides = [&](int axis) {
+    return std::any_of(j.type->motions.begin(), j.type->motions.end(),
+                       [&](const joint::FreeMotion& m) {
+                         return m.kind == joint::FreeMotion::Kind::slides && m.axis == axis;
+                       });
   };
   Vector3 away = marker.point;
-  if (j.type->name == "planar") // a point anywhere in the plane
+  if (slides(joint::X) && slides(joint::Y)) // a point anywhere in the plane
     away = marker.axes.col(joint::Z) * marker.axes.col(joint::Z).dot(away);
-  else if (std::any_of(j.type->motions.begin(), j.type->motions.end(), slides))
+  else if (slides(joint::Z))
     away -= marker.axes.col(joint::Z) * marker.axes.col(joint::Z).dot(away);
   return away.norm();
 }

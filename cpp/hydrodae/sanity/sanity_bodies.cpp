@@ -122,10 +122,9 @@ std::vector<Link> vertical_links(const system::System& s, const system::Workspac
         std::find_if(s.switches.begin(), s.switches.end(), [&](const system::SwitchData& element) {
           return static_cast<std::size_t>(element.coupler) == k;
         });
-    const bool rope =
-        stop != s.switches.end() && !std::isfinite(stop->lower) &&
-        s.joints[static_cast<std::size_t>(s.motions[static_cast<std::size_t>(stop->motion)].joint)]
-                .type->name == "one-sided distance";
+    const bool rope = stop != s.switches.end() && !std::isfinite(stop->lower) &&
+                      s.motions[static_cast<std::size_t>(stop->motion)].motion.kind ==
+                          joint::FreeMotion::Kind::stretches;
     if (stop == s.switches.end() || rope) // an open stop carries nothing
       for (const system::CouplerData::Term& term : s.couplers[k].terms)
         add_motion(term.motion);
