@@ -86,7 +86,7 @@ py::dict run(const model::Scene& scene, const std::string& output, const py::obj
     functions.raise_failure();
     throw;
   }
-  if (statistics.status != "completed") // else a function failed in the second run, which says so
+  if (statistics.status != "completed") // else a function failed in the second run, with a note
     functions.raise_failure();
   progress.raise_failure();
   return as_dict(statistics);

@@ -1,4 +1,4 @@
-/// hydrodae-fuzz: takes inputs in one process and tells how each ended.
+/// hydrodae-fuzz: takes inputs in one process and reports how each ended.
 ///
 /// A request is a line "<tasks> <folder>" on standard input, or two words of the command line. The
 /// folder holds `case.toml`, and `words`: those of a command line of hydrodae-solve without the

@@ -213,7 +213,7 @@ def test_results_whose_case_has_gone_ask_for_it(tmp_path, repository):
         (folder / name).write_bytes((source / name).read_bytes())
     hydrodae.run(folder / "wave.toml", tmp_path / "r.h5", set={"solver.end_time": 0.5})
     folder.rename(tmp_path / "elsewhere")
-    with pytest.raises(CaseError, match=r"tell where it is with --case"):
+    with pytest.raises(CaseError, match=r"give its place with --case"):
         hydrodae.view(tmp_path / "r.h5")
     stage = hydrodae.view(tmp_path / "r.h5", case=tmp_path / "elsewhere" / "wave.toml").stage
     assert stage.bodies[0].origin.startswith("wetted surface of the database")

@@ -87,7 +87,7 @@ void write_method(std::ostream& out, const model::Scene& scene) {
     for (std::size_t k = 1; k < order.methods.size(); ++k)
       out << (k == 1 ? "; where that cannot go on follows " : ", then ") << order.methods[k];
     out << '\n';
-  } catch (const Error&) { // a run tells it
+  } catch (const Error&) { // a run reports it
   }
 }
 

@@ -77,7 +77,7 @@ toml::source_region source_of(const std::string& place) {
   return {{1, 1}, {1, 1}, std::make_shared<const std::string>(place)};
 }
 
-/// The table under `part`, made if there is none.
+/// The table under `part`, made if it is missing.
 toml::node& step_into(toml::table& table, const std::string& part, const std::string& place) {
   if (!table.contains(part))
     table.emplace<toml::table>(toml::key(part, source_of(place)));

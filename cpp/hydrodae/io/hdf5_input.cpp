@@ -170,7 +170,7 @@ void Input::require_shape(const Source& source, const std::vector<hsize_t>& shap
                             shape_text(shape));
 }
 
-/// A list, whose length the file alone tells.
+/// A list, whose length only the file knows.
 void Input::require_list(const Source& source, hsize_t longest) const {
   if (source.shape.size() != 1)
     refuse(source.name, "expected a list, found shape " + shape_text(source.shape));

@@ -145,7 +145,7 @@ VectorX allowed_velocities(const system::Regime& s, const VectorX& y, std::mt199
   return u;
 }
 
-/// A pose beside the start that keeps the constraints, to tell a lock from a dead point.
+/// A pose beside the start that keeps the constraints, to distinguish a lock from a dead point.
 VectorX pose_beside(const system::Regime& s, std::mt19937& random) {
   const VectorX start = system::initial_state(s), scale = build::displacement_scale(s);
   VectorX y = start, step(s.n_u);
@@ -172,7 +172,7 @@ void judge_forces(const system::Regime& s, std::vector<Finding>& out) {
     const VectorX u = allowed_velocities(s, y, random);
     system::Workspace<double> ws(s);
     system::unpack<double>(s, y.data(), rest.data(), ws.bodies);
-    // What one unit of the scales gives tells which rates count.
+    // What one unit of the scales gives shows which rates count.
     for (std::size_t k = 0; k < ports.size(); ++k) {
       const double rate = motion_rate(s, ws, ports[k]->motion, u.cwiseProduct(scale)).first;
       const double most = motion_rate(s, ws, ports[k]->motion, scale).second;

@@ -84,7 +84,7 @@ class Goal:
         return UNIFORM_FLOOR * (self.uniform or 0.0)
 
     def met(self, found: Quality, share: float = 1.0) -> bool:
-        """Tell whether the errors are below `share` of their targets."""
+        """Return whether the errors are below `share` of their targets."""
         return self.miss(found) <= share
 
     def miss(self, found: Quality) -> float:

@@ -93,7 +93,7 @@ def fit_problem(
 def _realised(
     problem: Problem, goal: Goal, cap: int | None, say: Progress
 ) -> tuple[GroupFit, bool]:
-    """Fit by a realisation of K(t); tell whether it is passive."""
+    """Fit by a realisation of K(t); return the fit and whether it is passive."""
     made = fit_hankel(problem, goal, cap, say)
     assert made is not None
     return GroupFit(made[0], problem, made[1], HANKEL), made[2]

@@ -20,7 +20,7 @@ Complex = NDArray[np.complex128]
 
 #: What no coefficient in SI units reaches; larger ones stand for overflows.
 LARGEST = 1e30
-#: Taken where nothing tells: sea water, and the mean over the globe.
+#: Taken where no file gives them: sea water, and the mean over the globe.
 SEA_WATER, USUAL_GRAVITY = 1025.0, 9.81
 
 
