@@ -50,7 +50,7 @@ void note_inertia(const water::Morison& m, const model::Body& body, bool inside,
     s.notes.push_back(name + " lies inside the mesh of body " + in_quotes(body.name) +
                       ", which has the load of the undisturbed waves: its inertia force is rho V "
                       "C_a (a_f - a_b)");
-  else if (body.hydro && m.has_inertia())
+  if (body.hydro && m.has_inertia())
     s.notes.push_back(name + " adds its inertia to the loads that the database has of body " +
                       in_quotes(body.name) + ": right for a part outside the panels");
 }
