@@ -135,7 +135,7 @@ bool print_accuracy(const hydrodae::RunStatistics& statistics) {
 ExitCode run(const hydrodae::model::Scene& scene, const Arguments& arguments) {
   std::signal(SIGINT, note_interrupt);
   std::signal(SIGTERM, note_interrupt);
-  std::signal(SIGXFSZ, SIG_IGN); // a file over the limit of the shell is told as a full disk is
+  std::signal(SIGXFSZ, SIG_IGN); // a file over the limit of the shell: same message as a full disk
   Reporter reporter(arguments.quiet);
   const hydrodae::RunStatistics statistics =
       hydrodae::simulate(scene, arguments.output, std::ref(reporter), arguments.options);
@@ -177,7 +177,7 @@ ExitCode perform(const Arguments& arguments) {
     std::cout << hydrodae::examine(scene);
     return ExitCode::done;
   } catch (const hydrodae::ModelError& error) {
-    throw hydrodae::CaseError(hydrodae::model::located(scene, error));
+    throw hydrodae::model::located(scene, error);
   }
 }
 

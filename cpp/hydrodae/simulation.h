@@ -56,13 +56,16 @@ struct RunStatistics {
   std::vector<ControllerCost> controllers;
   long unknowns = 0;
   long nonzeros = 0;
-  std::vector<std::string> notes; ///< what the assembly found worth telling
+  std::vector<std::string> notes; ///< what the assembly found worth a note
 };
 
 /// What a person wants to know before a run: the scene as a tree, unknowns and multipliers, what
-/// each element costs, mobility, redundant rows, how far the bodies were moved to close the joints,
-/// coordinates that nothing moves, and what could be modelled with less. Throws ModelError.
+/// each element costs, mobility and redundant rows. Then how far the bodies were moved to close the
+/// joints, coordinates that nothing moves, and what could be modelled with less. Throws ModelError.
 std::string examine(const model::Scene& scene);
+
+/// The sizes of its equations that `examine` shows, by name. Throws ModelError.
+std::vector<std::pair<std::string, long>> count(const model::Scene& scene);
 
 /// How a run is made, apart from its scene.
 struct RunOptions {
@@ -71,7 +74,7 @@ struct RunOptions {
   std::string verify;
   /// Wall time between checkpoints [s], 0: one after each step, negative: none. A checkpoint
   /// X.checkpoint.h5 stands beside X.h5 until the run is completed. Each makes the method start
-  /// anew, see run::Simulation.
+  /// again, see run::Simulation.
   double checkpoint = -1.0;
   /// Goes on from the checkpoint; the results then hold the whole run.
   bool resume = false;

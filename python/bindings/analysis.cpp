@@ -33,7 +33,7 @@ py::dict linear_model(const model::Scene& scene) {
     const py::gil_scoped_release release;
     m = statics::linearize(scene);
   } catch (const ModelError& error) {
-    throw CaseError(model::located(scene, error));
+    throw model::located(scene, error);
   }
   return py::dict(
       "coordinates"_a = m.coordinates, "mass"_a = m.mass, "damping"_a = m.damping,

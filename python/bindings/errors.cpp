@@ -30,6 +30,18 @@ void raise_solver_error(const SolverError& error) {
   py::set_error(type, exception);
 }
 
+void raise_case_error(const FilePlace& place, const std::string& key, const std::string& fault,
+                      const char* message) {
+  const py::object type = error_type("CaseError");
+  const py::object exception = type(message);
+  exception.attr("file") = place.file;
+  exception.attr("line") = place.line;
+  exception.attr("column") = place.column;
+  exception.attr("key") = key;
+  exception.attr("fault") = fault;
+  py::set_error(type, exception);
+}
+
 void translate(std::exception_ptr pointer) {
   try {
     if (pointer)
@@ -37,9 +49,9 @@ void translate(std::exception_ptr pointer) {
   } catch (const SolverError& error) {
     raise_solver_error(error);
   } catch (const CaseError& error) {
-    raise("CaseError", error);
+    raise_case_error(error.place, error.key, error.fault, error.what());
   } catch (const ModelError& error) { // without a place in a file; see simulation.cpp
-    raise("CaseError", error);
+    raise_case_error({}, error.key, error.what(), error.what());
   } catch (const control::Stopped& stopped) {
     raise("RunInterrupted", stopped);
   } catch (const Error& error) {

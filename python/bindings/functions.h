@@ -114,7 +114,7 @@ private:
           return;
         }
       }
-    } catch (const std::exception&) { // told below
+    } catch (const std::exception&) { // reported below
     }
     throw CaseError("controllers: the function of " + in_quotes(name_) + " must return " +
                     (out.size() == 1 ? "one number" : std::to_string(out.size()) + " numbers") +

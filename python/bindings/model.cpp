@@ -8,6 +8,9 @@ namespace py = pybind11;
 
 namespace hydrodae::bindings {
 namespace {
+using Place = std::tuple<std::string, int, int>; ///< file, line, column
+} // namespace
+namespace {
 
 template <class T> std::vector<std::string> names(const std::vector<T>& items) {
   std::vector<std::string> out;
@@ -70,16 +73,24 @@ void bind_model(py::module_& module) {
           [](const Scene& s) { return s.database ? s.database->path : std::string(); },
           "The hydrodynamic database, \"\" without.")
       .def_property_readonly(
-          "positions", [](const Scene& s) { return s.positions; },
-          "Where each key stands: key path -> file:line:column, or what the caller calls it.")
+          "places",
+          [](const Scene& s) {
+            std::map<std::string, Place> out;
+            for (const auto& [key, at] : s.places)
+              out[key] = {at.file, at.line, at.column};
+            return out;
+          },
+          "Where each key stands: key path -> (file, line, column).")
       .def(
-          "with_positions",
-          [](const Scene& s, std::map<std::string, std::string> positions) {
+          "with_places",
+          [](const Scene& s, const std::map<std::string, Place>& places) {
             Scene copy = s;
-            copy.positions = std::move(positions);
+            copy.places.clear();
+            for (const auto& [key, at] : places)
+              copy.places[key] = {std::get<0>(at), std::get<1>(at), std::get<2>(at)};
             return copy;
           },
-          py::arg("positions"), "A copy in whose messages the keys stand at other places.")
+          py::arg("places"), "A copy in whose messages the keys stand at other places.")
       .def("summary", &model::summary)
       .def("__repr__", [](const Scene& s) {
         return "<hydrodae._core.Scene '" + s.title + "': " + std::to_string(s.bodies.size()) +

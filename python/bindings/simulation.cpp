@@ -81,12 +81,12 @@ py::dict run(const model::Scene& scene, const std::string& output, const py::obj
                           {verify, checkpoint, resume});
   } catch (const ModelError& error) {
     functions.raise_failure();
-    throw CaseError(model::located(scene, error));
+    throw model::located(scene, error);
   } catch (const Error&) {
     functions.raise_failure();
     throw;
   }
-  if (statistics.status != "completed") // else a function failed in the second run, which says so
+  if (statistics.status != "completed") // else a function failed in the second run, with a note
     functions.raise_failure();
   progress.raise_failure();
   return as_dict(statistics);
@@ -101,13 +101,26 @@ std::string examine_scene(const model::Scene& scene, const Functions& drives,
     return text;
   } catch (const ModelError& error) {
     functions.raise_failure();
-    throw CaseError(model::located(scene, error));
+    throw model::located(scene, error);
   }
+}
+
+py::dict count_scene(const model::Scene& scene) {
+  py::dict out;
+  try {
+    for (const auto& [name, number] : count(scene))
+      out[py::str(name)] = number;
+  } catch (const ModelError& error) {
+    throw model::located(scene, error);
+  }
+  return out;
 }
 
 } // namespace
 
 void bind_simulation(py::module_& module) {
+  module.def("count", &count_scene, py::arg("scene"),
+             "Sizes of the equations of the scene, by name. Raises CaseError.");
   module.def(
       "examine", &examine_scene, py::arg("scene"), py::arg("drives"),
       py::arg("forces") = Functions{},

@@ -71,7 +71,7 @@ private:
       work();
     } catch (const ModelError& error) {
       functions_.raise_failure();
-      throw CaseError(model::located(scene_, error));
+      throw model::located(scene_, error);
     } catch (const control::Stopped& stopped) {
       functions_.raise_failure();
       const std::string end = number_text(simulation_->scene().solver.end_time);

@@ -41,9 +41,9 @@ class Scene:
     def database_path(self) -> str:
         """The hydrodynamic database, "" without."""
     @property
-    def positions(self) -> dict[str, str]:
-        """Where each key stands: key path -> file:line:column, or what the caller calls it."""
-    def with_positions(self, positions: Mapping[str, str]) -> Scene:
+    def places(self) -> dict[str, tuple[str, int, int]]:
+        """Where each key stands: key path -> (file, line, column)."""
+    def with_places(self, places: Mapping[str, tuple[str, int, int]]) -> Scene:
         """A copy in whose messages the keys stand at other places."""
     def summary(self) -> str: ...
 
@@ -77,6 +77,9 @@ def examine(
     forces: Mapping[str, Callable[[float, Any, Any], Any]] = ...,
 ) -> str:
     """The scene as a tree, what it costs, mobility and redundant rows. Raises CaseError."""
+
+def count(scene: Scene) -> dict[str, int]:
+    """Sizes of the equations of the scene, by name. Raises CaseError."""
 
 def linearize(scene: Scene) -> dict[str, Any]:
     """The static equilibrium of the scene in still water and its linear model there.

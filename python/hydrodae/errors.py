@@ -14,8 +14,28 @@ class HydrodaeError(Exception):
 class CaseError(HydrodaeError, ValueError):
     """A case file or an argument is wrong.
 
-    The message names file, line and column, the key, what was expected and the nearest valid name.
+    The message is `fault` with the place in front.
+
+    Attributes
+    ----------
+    key : str
+        Path of the key or entry that is wrong, such as "solver.rtol" or "joint.hinge.body_a"; ""
+        where it is about no key.
+    file : str
+        File in which it stands, or what else gives it, such as "--set solver.rtol"; "" if unknown.
+    line, column : int
+        Where in the file, from 1; 0 if unknown.
+    fault : str
+        What was found, what was expected, and the nearest valid name.
     """
+
+    def __init__(
+        self, fault: str = "", *, key: str = "", file: str = "", line: int = 0, column: int = 0
+    ) -> None:
+        place = ":".join([file, *(str(number) for number in (line, column) if number)])
+        super().__init__(f"{place}: {fault}" if file else fault)
+        self.fault, self.key = fault, key
+        self.file, self.line, self.column = file, line, column
 
 
 class DatabaseError(HydrodaeError, ValueError):

@@ -1,4 +1,4 @@
-/// hydrodae-fuzz: takes inputs in one process and tells how each ended.
+/// hydrodae-fuzz: takes inputs in one process and reports how each ended.
 ///
 /// A request is a line "<tasks> <folder>" on standard input, or two words of the command line. The
 /// folder holds `case.toml`, and `words`: those of a command line of hydrodae-solve without the
@@ -104,7 +104,7 @@ Answer perform(const std::string& tasks, const std::string& folder) {
     if (writes || tasks.find('r') != std::string::npos)
       answer = run(scene, writes ? results : "");
   } catch (const hydrodae::ModelError& error) {
-    throw hydrodae::CaseError(hydrodae::model::located(scene, error));
+    throw hydrodae::model::located(scene, error);
   }
   return answer;
 }

@@ -222,8 +222,8 @@ template <int w> const hydrodae_law* smooth_library_law() {
   return &law;
 }
 
-/// Lines of two parts with bending, a buoy and a clump, partly in the air and on the bed, and one
-/// with a free end, in other water, which is damped where it is slack and leaves the bed.
+/// Lines of two parts with bending, a buoy and a clump, partly in the air and on the bed. One has a
+/// free end, in other water, which is damped where it is slack and leaves the bed.
 inline std::vector<line::Line> random_lines(Random& random) {
   line::Line line;
   line.name = "line";

@@ -30,7 +30,7 @@ def hydrostatics(db, name):
 
 
 def test_zones_are_motions_and_columns_are_forces(tmp_path):
-    # a nonsymmetric A tells rows from columns: A[force i, motion j] = 10 i + j off the diagonal
+    # a nonsymmetric A parts rows from columns: A[force i, motion j] = 10 i + j off the diagonal
     data = read_source(NemohFolder().write(tmp_path / "f"))
     assert data.added_mass[1, 2, 4] == pytest.approx(10 * 2 + 4 + 1.0)
     assert data.added_mass[1, 4, 2] == pytest.approx(10 * 4 + 2 + 1.0)

@@ -15,7 +15,7 @@ from hydrodae.hdb.checks.sizes import size_findings
 from hydrodae.hdb.checks.units import unit_findings
 
 ROOT = Path(__file__).parents[2]
-#: A flat hull, and a hull below the water: without waves nothing tells.
+#: A flat hull, and a hull below the water: without waves nothing shows the unit.
 UNTOLD = ((0.1, "displaced_volume"), (1e-3, "waterplane_area"))
 
 

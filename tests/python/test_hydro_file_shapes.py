@@ -49,7 +49,7 @@ LABELS = {
 CASES = [
     (name, change)
     for name, entry in ENTRIES.items()
-    for change in (LABELS if entry.kind == "text" else CHANGES)
+    for change in (LABELS if entry.kind.is_text else CHANGES)
     # the same for lists; a surface may have any number of panels
     if not (len(entry.dims) == 1 and change == "one entry more at the end")
     and not (name.endswith("mesh") and change == "one entry more")
@@ -73,7 +73,7 @@ def changed(path: Path, folder: Path, name: str, change: str) -> Path:
     with h5py.File(target, "r+") as f:
         values, attributes = f[name][()], dict(f[name].attrs)
         del f[name]
-        changes = LABELS if ENTRIES[name].kind == "text" else CHANGES
+        changes = LABELS if ENTRIES[name].kind.is_text else CHANGES
         node = f.create_dataset(name, data=changes[change](values))
         for key, value in attributes.items():
             node.attrs[key] = value

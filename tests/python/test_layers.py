@@ -60,3 +60,18 @@ def test_libraries_stay_in_their_rooms(repository: Path) -> None:
         if re.match(pattern, target) and room != owner
     ]
     assert not wrong
+
+
+def test_no_code_asks_for_a_type_or_method_by_its_name(repository: Path) -> None:
+    """What differs from type to type is a member of the type, or stands in a table."""
+    asks = re.compile(r"\b(type|method|kind)(->name)? *[!=]= *[\"']")
+    files = [*(repository / "cpp" / "hydrodae").rglob("*.[ch]*")]
+    files += (repository / "python" / "hydrodae").rglob("*.py")
+    wrong = [
+        f"{file.relative_to(repository)}:{number}: {line.strip()}"
+        for file in sorted(files)
+        if "wecsim" not in file.parts
+        for number, line in enumerate(file.read_text().splitlines(), 1)
+        if asks.search(line)
+    ]
+    assert not wrong

@@ -121,6 +121,8 @@ def test_a_wrong_call_is_refused_at_once(
     with pytest.raises(CaseError) as told:
         call(scene)
     assert str(told.value).startswith(message)
+    assert message.startswith(f"{told.value.file}: ")
+    assert told.value.key
     assert "title" in scene.to_toml()
     assert "[" not in scene.to_toml()  # what was refused is not in the scene
 
@@ -136,8 +138,10 @@ def test_what_the_whole_scene_gets_wrong_names_the_call() -> None:
     scene.force.pto_linear("brake", joint="hing", damping=1.0)
     message = r'^scene.force.pto_linear\("brake"\): joint = \'hing\' is no joint; did you mean'
     for check in (scene.case, lambda: hydrodae.run(scene), lambda: hydrodae.check(scene)):
-        with pytest.raises(CaseError, match=message):
+        with pytest.raises(CaseError, match=message) as told:
             check()
+        assert told.value.key == "force.brake.joint"
+        assert (told.value.file, told.value.line) == ('scene.force.pto_linear("brake")', 0)
 
 
 def test_what_only_the_assembly_finds_names_the_call_too() -> None:

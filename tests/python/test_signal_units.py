@@ -120,7 +120,8 @@ def test_units_that_a_case_cannot_give(type: str, keys: str, inputs: str, messag
     for act in (hydrodae.check, hydrodae.Simulation):
         with pytest.raises(CaseError, match=message) as caught:
             act(given)
-        assert str(caught.value).startswith(f"<case>:{line}:1: controller 'pi': ")
+        assert (caught.value.file, caught.value.line) == ("<case>", line)
+        assert caught.value.key == "controller.pi.inputs"
 
 
 def test_a_load_must_be_where_a_damper_answers() -> None:

@@ -191,7 +191,7 @@ def test_what_is_no_study_is_told_as_what_it_is(folder: Path) -> None:
     with pytest.raises(hydrodae.CaseError, match="is a picture; a study is a TOML file"):
         hydrodae.sweep(folder / "figure.toml", folder / "x.nc")
     study = write_study(folder, '[grid]\n"force.pto.damping" = [1]\n')
-    study.write_bytes(b"\xef\xbb\xbf" + study.read_bytes())  # the mark of the byte order is none
+    study.write_bytes(b"\xef\xbb\xbf" + study.read_bytes())  # the mark of the byte order is no key
     with pytest.raises(hydrodae.CaseError, match=r"expected a name that ends in \.nc"):
         hydrodae.sweep(study, folder / "x.csv")
 

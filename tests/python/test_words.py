@@ -1,18 +1,22 @@
-"""The language of pages, `--help` texts, messages and docstrings: short sentences, plain words."""
+"""The language of pages, `--help` texts, messages, docstrings and comments."""
 
 from __future__ import annotations
 
 import argparse
 import ast
 import inspect
+import io
 import re
-from collections.abc import Iterator
+import tokenize
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
 import pytest
 from tests.python.doc_blocks import pages
 
 from hydrodae.commands import cli
+
+Comments = Callable[[str], Iterator[tuple[int, str, bool]]]
 
 MOST = 25
 """Words in a sentence; code, numbers and symbols do not count."""
@@ -21,7 +25,7 @@ MEAN = 18
 """Words in a sentence of the pages, on average."""
 
 LONGEST = 35
-"""Words in a sentence of a docstring."""
+"""Words in a sentence of a docstring or comment."""
 
 NONE = r"(?:is|are|has|have|there) none"
 
@@ -42,9 +46,6 @@ BANNED = {
 
 #: Pages that still break the rules: take a page off when you have rewritten it, add none.
 PENDING: set[str] = set()
-
-#: The same for packages below python/hydrodae.
-PENDING_FOLDERS = {"memory", "viewer"}
 
 
 def prose(text: str) -> str:
@@ -167,6 +168,59 @@ def strings(source: str) -> Iterator[tuple[int, str, bool]]:
             yield node.lineno, node.value, node in docstrings
 
 
+def blocks(comments: Iterable[tuple[int, str, bool]]) -> Iterator[tuple[int, str]]:
+    """First line and text of comments; those that stand alone on adjacent lines are one text.
+
+    Displayed equations and tables, which are indented, are left out.
+    """
+    first, next_line, lines = 0, 0, list[str]()
+    for line, text, alone in comments:
+        if not alone or line != next_line:
+            yield first, "\n".join(lines)
+            first, lines = line, []
+        next_line = line + 1 if alone else 0
+        lines.append("" if text.startswith("  ") else re.sub(r"^@\w+", "\n", text))
+    yield first, "\n".join(lines)
+
+
+def cpp_comments(source: str) -> Iterator[tuple[int, str, bool]]:
+    """Line, text and whether nothing stands before it, of each comment of C++."""
+    source = re.sub(r'R"\((.|\n)*?\)"', lambda raw: "\n" * raw[0].count("\n"), source)
+    for number, line in enumerate(source.splitlines(), 1):
+        code, slashes, text = re.sub(r'"(?:[^"\\]|\\.)*"', "X", line).partition("//")
+        if slashes:
+            yield number, re.sub(r"^/?!?<? ?", "", text), not code.strip()
+
+
+def python_comments(source: str) -> Iterator[tuple[int, str, bool]]:
+    """The same of Python."""
+    for token in tokenize.generate_tokens(io.StringIO(source).readline):
+        if token.type == tokenize.COMMENT:
+            before = token.line[: token.start[1]]
+            yield token.start[0], re.sub(r"^#:? ?", "", token.string), not before.strip()
+
+
+@pytest.mark.parametrize(
+    ("suffixes", "comments", "fewest"),
+    [({".cpp", ".h"}, cpp_comments, 500), ({".py"}, python_comments, 400)],
+    ids=["cpp", "python"],
+)
+def test_comments_keep_to_the_rules(
+    repository: Path, suffixes: set[str], comments: Comments, fewest: int
+) -> None:
+    folders = ("cpp", "python", "tests", "cases", "docs")
+    files = [file for folder in folders for file in sorted((repository / folder).rglob("*.*"))]
+    files = [file for file in files if file.suffix in suffixes]
+    assert len(files) > fewest
+    broken = [
+        f"{file.relative_to(repository)}:{line}: {fault}"
+        for file in files
+        for line, text in blocks(comments(file.read_text()))
+        for fault in faults(clauses(text), LONGEST)
+    ]
+    assert not broken, "\n".join(broken)
+
+
 def described(docstring: str) -> str:
     """The prose of a docstring: without examples, displayed equations, types and parameters."""
     lines = inspect.cleandoc(docstring).splitlines()
@@ -197,8 +251,6 @@ def test_messages_and_keys_of_the_kernel_keep_to_the_rules(repository: Path) -> 
 def test_messages_and_docstrings_of_python_keep_to_the_rules(repository: Path) -> None:
     broken = []
     for file in sorted((repository / "python" / "hydrodae").rglob("*.py")):
-        if PENDING_FOLDERS & {*file.relative_to(repository / "python" / "hydrodae").parts}:
-            continue
         for line, text, is_docstring in strings(file.read_text()):
             if is_docstring:  # None is a word of Python
                 found = faults(clauses(described(text)), LONGEST, allowed=NONE)
@@ -227,6 +279,13 @@ def test_strings_are_found_and_joined() -> None:
     ]
     source = '"""One."""\nx = f"two {x} three"\nwords = "four five".split()\n'
     assert list(strings(source)) == [(2, "two `x` three", False), (1, "One.", True)]
+
+
+def test_comments_are_found_and_joined() -> None:
+    source = 'f("// no");  // one\n/// Two\n///   T = told\n/// three.\n/// @returns four\n'
+    assert list(blocks(cpp_comments(source)))[1:] == [(1, "one"), (2, "Two\n\nthree.\n\n four")]
+    source = 'x = "# no"  # one\n#: Two\n# three.\n'
+    assert list(blocks(python_comments(source)))[1:] == [(1, "one"), (2, "Two\nthree.")]
 
 
 def test_the_prose_of_a_docstring_is_short() -> None:

@@ -97,8 +97,11 @@ FAULTS = {
 @pytest.mark.parametrize("how", FAULTS)
 def test_what_is_no_fmu_is_told(how: str, tmp_path: Path) -> None:
     broken(tmp_path, how)
-    with pytest.raises(CaseError, match=r"case.toml:\d+:\d+: .*controller 'pi'.*" + FAULTS[how]):
-        hydrodae.run(cart(tmp_path))
+    case = cart(tmp_path)
+    with pytest.raises(CaseError, match=FAULTS[how]) as caught:
+        hydrodae.run(case)
+    assert caught.value.file == str(case.path)
+    assert caught.value.key.startswith("controller.pi")
     assert not list(Path("/tmp").glob("hydrodae-fmu-*/evil"))
 
 

@@ -111,7 +111,7 @@ def test_variables_of_all_kinds_are_signals(fmi: int, tmp_path: Path) -> None:
     found = hydrodae.run(kinds(tmp_path, fmi))
     own = hydrodae.run(kinds(tmp_path, fmi, 'type = "python"'), controllers={"kinds": law})
     half = "controllers/kinds/output_5"
-    # numbers of 32 bits are what FMI 3 has there, FMI 2 has none of them
+    # numbers of 32 bits are what FMI 3 has there, FMI 2 lacks them
     tolerance = 1e-6 if fmi == 2 else 1e-12
     for name in ("joints/slide/displacement", "controllers/kinds/output_1", half):
         np.testing.assert_allclose(found[name], own[name], rtol=tolerance, atol=tolerance)

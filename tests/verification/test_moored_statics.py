@@ -299,3 +299,28 @@ def test_a_rope_whose_rounding_is_a_load_is_told() -> None:
     case = hydrodae.Case.from_text(HANGING.format(stiffness=5e17))
     with pytest.raises(hydrodae.CaseError, match=r"heave of body 'load' .* rounding in the last"):
         hydrodae.equilibrium(case)
+
+
+def test_buoyancy_of_a_volume_is_no_mooring() -> None:
+    case = hydrodae.Case.from_text("""
+[environment]
+water_density = 1000.0
+[[body]]
+name = "buoy"
+motion = "heave"
+mass = 1000.0
+center_of_gravity = [0.0, 0.0, -5.0]
+volume = 1.5
+[[force]]
+type = "spring_damper"
+name = "tether"
+body_a = "ground"
+body_b = "buoy"
+point_a = [0.0, 0.0, -20.0]
+point_b = [0.0, 0.0, -6.0]
+stiffness = 1e5
+length = 13.9
+[solver]
+end_time = 1.0
+""")
+    assert [hold.name for hold in hydrodae.equilibrium(case).moorings] == ["tether"]

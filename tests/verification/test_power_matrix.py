@@ -15,7 +15,7 @@ from hydrodae.results.post import mean_absorbed_power
 PERIODS = (6.0, 7.5, 9.0, 10.5, 12.0, 14.0)  # [s]
 HEIGHTS = (1.0, 2.0, 3.0, 4.0, 5.0)  # [m]
 RAMP = 30.0  # [s]
-GAP = 1e-6  #: by which rtol may let a stop be passed, of a body some 10 m in size [m]
+GAP = 1e-6  #: by which rtol may let a stop be passed, of a body about 10 m in size [m]
 STROKE = 1.5  # [m]
 STOP = """
 [[constraint]]

@@ -158,7 +158,7 @@ def test_parts_of_the_excitation(sphere: Path, tmp_path: Path) -> None:
         atol=1e-9 * abs(work["excitation"]).max(),
     )
     assert results.statistics["relative_balance_error"] < 1e-5
-    # A source that tells the sum alone has no parts.
+    # A source that gives the sum alone has no parts.
     folder = folder_with(sphere, tmp_path)
     with h5py.File(folder / "hydro.h5", "r+") as file:
         file["excitation"].attrs["split"] = "total only"

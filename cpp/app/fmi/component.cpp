@@ -124,7 +124,7 @@ void Component::begin(double end_time) {
   try {
     run_ = std::make_unique<run::Simulation>(scene);
   } catch (const ModelError& error) {
-    throw CaseError(model::located(scene, error));
+    throw model::located(scene, error);
   }
   end_time_ = end_time;
   inputs_.clear();

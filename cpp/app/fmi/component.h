@@ -52,7 +52,7 @@ public:
 
   double time() const { return run_ ? run_->time() : 0.0; } ///< [s]
 
-  /// Ends the run: controllers of the case that are other programs are told so.
+  /// Ends the run: controllers of the case that are other programs get a message.
   void finish();
 
   /// As it was made.

@@ -80,7 +80,7 @@ Contents read_contents(const std::string& resources) {
     try {
       take_line(split(line), out);
     } catch (const CaseError& error) {
-      throw CaseError(path + ":" + std::to_string(number) + ": " + error.what());
+      throw CaseError({path, number}, "", error.what());
     }
   return out;
 }

@@ -49,7 +49,7 @@ struct Contents {
 ///   output        REFERENCE  NAME
 ///
 /// @param resources  the folder; case.toml and the files that it names lie beside variables.txt
-/// Throws CaseError where there is no such file, or a line that is none of these.
+/// Throws CaseError without such a file, or at a line of another form.
 Contents read_contents(const std::string& resources);
 
 /// The folder of a URI "file:///...", with %20 and the like decoded. Throws CaseError for others.

@@ -11,7 +11,7 @@ HYDRODAE_FMI const char* fmi2GetVersion() { return "2.0"; }
 
 HYDRODAE_FMI fmi2Status fmi2SetDebugLogging(fmi2Component, fmi2Boolean, std::size_t,
                                             const fmi2String*) {
-  return fmi2OK; // errors are always told; there is nothing else
+  return fmi2OK; // errors are always reported; there are no other categories
 }
 
 HYDRODAE_FMI fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid,

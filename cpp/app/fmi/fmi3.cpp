@@ -17,7 +17,7 @@ HYDRODAE_FMI const char* fmi3GetVersion() { return "3.0"; }
 
 HYDRODAE_FMI fmi3Status fmi3SetDebugLogging(fmi3Instance, fmi3Boolean, std::size_t,
                                             const fmi3String*) {
-  return fmi3OK; // errors are always told; there is nothing else
+  return fmi3OK; // errors are always reported; there are no other categories
 }
 
 HYDRODAE_FMI fmi3Instance fmi3InstantiateCoSimulation(

@@ -23,13 +23,13 @@ namespace hydrodae::fmi {
 /// The same numbers in both versions of the standard.
 enum class Status : int { ok, warning, discard, error, fatal };
 
-/// A component, and how the importer is told messages.
+/// A component, and how messages reach the importer.
 struct Instance {
   using Log = std::function<void(Status, const char* category, const char* message)>;
 
   Component component;
   Log log;
-  std::optional<double> stop = {}; ///< FMI 2.0 tells it before the run begins [s]
+  std::optional<double> stop = {}; ///< FMI 2.0 gives it before the run begins [s]
   double start = 0.0;
 };
 
@@ -94,8 +94,8 @@ template <class S, class Work> S call(void* instance, Work&& work) {
   }
 }
 
-/// There are no clocks, events, derivatives or variables of other types: who asks for `count` > 0
-/// of them is told so.
+/// There are no clocks, events, derivatives or variables of other types: a request for `count` > 0
+/// of them is an error.
 template <class S> S nothing_of(void* instance, std::size_t count, const char* what) {
   return call<S>(instance, [&](Instance&) {
     if (count > 0)
@@ -103,7 +103,7 @@ template <class S> S nothing_of(void* instance, std::size_t count, const char* w
   });
 }
 
-/// A new instance; null where it cannot be made, which the importer is told.
+/// A new instance; null where it cannot be made, with a message to the importer.
 /// @param place  of resources/, from what the importer passes
 template <class Place>
 Instance* make_instance(const Instance::Log& log, const char* token, Place&& place) {

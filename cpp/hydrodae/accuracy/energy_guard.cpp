@@ -36,8 +36,8 @@ EnergyGuard::EnergyGuard(const system::Regime& system, const model::SolverOption
       at_singular_(options.energy_guard ? part_ : guard_at_singular_poses(options)),
       guided_(system::guided_mechanisms(system)) {}
 
-/// Where drives guide all, the energy tells of the reactions, which are a derivative less exact,
-/// and little of the motion.
+/// Where drives guide all, the energy measures the reactions, which are a derivative less exact,
+/// and hardly the motion.
 double EnergyGuard::allowed(int mechanism) const {
   constexpr double more = 10.0;
   const bool guided = mechanism >= 0

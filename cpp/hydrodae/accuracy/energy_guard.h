@@ -1,6 +1,6 @@
 #pragma once
 /// The energy that the equations keep is a witness that the integrator does not look at: what is
-/// missing tells of a branch lost in a singular pose, or of a tolerance too loose.
+/// missing shows a branch lost in a singular pose, or of a tolerance too loose.
 
 #include <functional>
 
@@ -24,10 +24,10 @@ public:
              const std::function<bool()>& at_singular_pose,
              const std::function<std::string()>& reactions) const;
 
-  /// Energy below which an exchange tells nothing: that of errors within the tolerance [J].
+  /// Energy below which an exchange is not judged: that of errors within the tolerance [J].
   double counts() const { return least(-1); }
 
-  /// The same at the end of the run, with next to no energy too little to tell.
+  /// The same at the end of the run, with next to no energy too little to judge.
   void finish(double t, const measure::Measure& measure) const;
 
 private:

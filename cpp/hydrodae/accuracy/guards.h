@@ -36,7 +36,7 @@ private:
   Index worst_ = 0; ///< row of the widest gap of the positions
 };
 
-/// Tells singular poses of closed loops from rows that always follow from others.
+/// Distinguishes singular poses of closed loops from rows that always follow from others.
 class PoseGuard {
 public:
   /// Takes the pose of y for a regular one; the constraints of `system` in any formulation.

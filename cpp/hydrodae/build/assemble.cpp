@@ -25,7 +25,7 @@ void close_velocities(const system::System& s, Constraints& constraints, VectorX
   }
 }
 
-/// Tells how far closing the joints moved a body; a pose that the case gives is not to be left.
+/// Reports how far closing the joints moved a body; a pose that the case gives is not to be left.
 void note_move(system::System& s, const std::vector<BodyStart>& starts, int body, double moved,
                double angle) {
   const system::BodyData& b = s.bodies[static_cast<std::size_t>(body)];

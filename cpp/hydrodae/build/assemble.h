@@ -7,9 +7,9 @@
 
 namespace hydrodae::build {
 
-/// Leaves out rows that follow from others (see redundancy.h), moves the bodies by the smallest
-/// motion (measured by the scales) that closes all constraints, finds velocities that keep them
-/// closed (see start_velocities.h), and writes both into the bodies. Notes what was moved or
+/// Leaves out rows that follow from others (see redundancy.h). Moves the bodies by the smallest
+/// motion (measured by the scales) that closes all constraints, and finds velocities that keep them
+/// closed (see start_velocities.h). Writes both into the bodies. Notes what was moved or
 /// changed. Throws ModelError naming the constraint and its gap where there is no such pose near,
 /// or the body or joint whose given velocity does not fit.
 void assemble(system::System& system, const Fit& fit, const std::vector<BodyStart>& given);

@@ -101,7 +101,7 @@ void add_hulls(const model::Scene& scene, bool with_waves, system::System& s) {
     system::ElementList entry;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
       const model::Body& body = scene.bodies[i];
-      if (!body.hull || (body.froude_krylov == "mesh") != in_waves)
+      if (!body.hull || body.waves_by_mesh() != in_waves)
         continue;
       if (!list)
         list = std::make_shared<water::HullList>(

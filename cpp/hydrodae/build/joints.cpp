@@ -24,7 +24,7 @@ const std::array<joint::JointType, 6> body_coordinates = {{
 }};
 const joint::JointType rope_type = {"one-sided distance", {}, {joint::stretches()}, false};
 
-/// Poses that the free coordinates can reach, drawn at random: they tell which constraint rows can
+/// Poses that the free coordinates can reach, drawn at random: they show which constraint rows can
 /// change at all.
 std::vector<system::BodyState<double>> random_states(const system::System& s,
                                                      std::mt19937& random) {

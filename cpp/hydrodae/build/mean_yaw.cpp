@@ -16,8 +16,8 @@ constexpr double rounding = 1e-9;             ///< [rad]
 constexpr double together = 5.0 * pi / 180.0; ///< yaws that differ by less are one device's [rad]
 
 /// Yaw of a body where it starts [rad]: the turn about z that is left when the shortest turn which
-/// sets its z axis upright is taken away; any pitch or roll below 180 degrees has none. Yaw axes
-/// have that of the body's x axis seen from above, which they follow.
+/// sets its z axis upright is taken away; it is zero for any pitch or roll below 180 degrees. Yaw
+/// axes have that of the body's x axis seen from above, which they follow.
 double start_yaw(system::HydroAxes axes, const system::BodyData& body) {
   if (axes == system::HydroAxes::yaw) {
     const Vector3 ahead = rotation_matrix<double>(body.orientation).col(0);

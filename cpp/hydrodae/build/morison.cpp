@@ -2,8 +2,8 @@
 
 #include "hydrodae/build/initial_pose.h"
 #include "hydrodae/build/parts.h"
-#include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/model/claims.h"
 #include "hydrodae/model/waves.h"
 #include "hydrodae/water/morison_list.h"
 
@@ -42,22 +42,17 @@ water::MorisonSegment member_law(const water::Morison& m, double length, double 
   return law;
 }
 
-/// Do the waves load these pieces by the mesh of their body already, with its Froude-Krylov
-/// pressure? An element that is half inside has no answer.
-bool in_mesh(const water::Morison& m, const model::Body& body, const water::MorisonMember& member) {
-  if (body.froude_krylov != "mesh" || member.law.mass_fluid == 0.0)
-    return false;
-  int inside = 0;
-  for (int k = 0; k < member.segments; ++k)
-    inside += hull::encloses(*body.hull, member.first + k * member.step);
-  if (inside != 0 && inside != member.segments)
-    throw ModelError("morison." + m.name,
-                     "morison " + in_quotes(m.name) + ": " + std::to_string(inside) + " of its " +
-                         std::to_string(member.segments) + " pieces lie inside the mesh of body " +
-                         in_quotes(body.name) +
-                         ", whose Froude-Krylov load their inertia force would count twice; end "
-                         "the member at the hull, or make it two elements");
-  return inside != 0;
+/// What a user has to know of its inertia.
+void note_inertia(const water::Morison& m, const model::Body& body, bool inside,
+                  system::System& s) {
+  const std::string name = "morison " + in_quotes(m.name);
+  if (inside)
+    s.notes.push_back(name + " lies inside the mesh of body " + in_quotes(body.name) +
+                      ", which has the load of the undisturbed waves: its inertia force is rho V "
+                      "C_a (a_f - a_b)");
+  if (body.hydro && m.has_inertia())
+    s.notes.push_back(name + " adds its inertia to the loads that the database has of body " +
+                      in_quotes(body.name) + ": right for a part outside the panels");
 }
 
 } // namespace
@@ -91,13 +86,10 @@ void add_morison(const model::Scene& scene, system::System& s) {
       member.axis = along.normalized();
       member.law = member_law(m, member.step.norm(), water.density);
     }
-    if (in_mesh(m, body, member)) {
+    const bool inside = model::leaves_waves_to_mesh(body, m);
+    if (inside)
       member.law.mass_fluid = member.law.mass_body;
-      s.notes.push_back("morison " + in_quotes(m.name) + " lies inside the mesh of body " +
-                        in_quotes(body.name) +
-                        ", which has the load of the undisturbed waves: its inertia force is rho "
-                        "V C_a (a_f - a_b)");
-    }
+    note_inertia(m, body, inside, s);
     if (member.moves)
       pieces += member.segments;
     list->add(m.name, member);

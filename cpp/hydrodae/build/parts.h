@@ -54,7 +54,7 @@ void add_joint(const model::Scene& scene, const model::Joint& joint, system::Sys
 int body_motion(const model::Scene& scene, const std::string& body, const std::string& coordinate,
                 system::System& system);
 
-/// The motion of a joint by name, its first one without; -1: there is none (build_joints.cpp).
+/// The motion of a joint by name, its first one without; -1 if absent (build_joints.cpp).
 int joint_motion(const system::System& system, const std::string& joint,
                  const std::optional<std::string>& coordinate);
 
@@ -75,14 +75,14 @@ void set_coupler_offsets(system::System& system);
 void add_elements(const model::Scene& scene, system::System& system);
 
 /// The reactions of joints that laws feel, once it is known which rows are kept (reactions.cpp).
-/// Throws ModelError where a joint does not tell what presses, or not alone.
+/// Throws ModelError where a joint has no single reaction that presses.
 void find_reactions(system::System& system);
 /// States of laws that start at rest, where the bodies start (build_elements.cpp). Throws
 /// ModelError.
 void start_laws(system::System& system);
 
 /// Buoyancy and linear hydrostatics of all wet bodies, turned by their mean yaws
-/// (build_elements.cpp); made anew by each call.
+/// (build_elements.cpp); made again by each call.
 void set_hydrostatics(const model::Scene& scene, system::System& system);
 
 /// Excitation of the sea where the bodies start (build_sea.cpp); needs `add_hydro`. Throws

@@ -12,7 +12,7 @@ namespace hydrodae::build {
 struct Fit {
   double tolerance = 1e-6; ///< solver.tolerance_assembly, of a body's lever or of one radian
   double end_time = 0.0;   ///< drives are compared up to here [s]
-  bool force = false;      ///< hold misaligned rows none the less
+  bool force = false;      ///< hold misaligned rows all the same
 };
 
 /// Marks rows that follow from the others in every closed pose near y, up to the tolerance (rank of

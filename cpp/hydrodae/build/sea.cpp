@@ -177,7 +177,7 @@ BodyLoad add_load(const model::Scene& scene, const Source& source, std::size_t i
   BodyLoad load{yaw_coefficients(source.total, 6 * i, meeting, samples, all), {}};
   if (split)
     load.froude_krylov = yaw_coefficients(*source.froude_krylov, 6 * i, meeting, samples, all);
-  if (entry.froude_krylov == "mesh") { // that load is the mesh's: the diffraction is left
+  if (entry.waves_by_mesh()) { // that load is the mesh's: the diffraction is left
     load.total -= mesh_coefficients(scene, *entry.hull, pose_of_table(scene, entry, pose), meeting,
                                     samples, all);
     load.froude_krylov.setZero();

@@ -11,6 +11,7 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/cosim/fmu.h"
+#include "hydrodae/joint/types.h"
 #include "hydrodae/model/motion.h"
 #include "hydrodae/observe/recorder.h"
 #include "hydrodae/run/controllers.h"
@@ -132,16 +133,17 @@ void advise_joints(std::ostream& out, const model::Scene& scene) {
     if (!a && !b)
       continue;
     const std::string& body = b ? j.body_b : j.body_a;
-    if (j.type == "fixed" && a && b)
+    const joint::JointType& type = *joint::find_joint_type(j.type);
+    if (type.welds() && a && b)
       out << "  could be less: bodies '" << j.body_a << "' and '" << j.body_b << "', which joint '"
           << j.name << "' fixes to each other, as one body\n";
-    else if (j.type == "fixed")
+    else if (type.welds())
       out << "  could be less: joint '" << j.name << "' as motion = \"fixed\" of body '" << body
           << "', whose support load is reported too\n";
     const auto alone = std::find_if(scene.bodies.begin(), scene.bodies.end(),
                                     [&](const model::Body& other) { return other.name == body; });
     const std::array<bool, 6> free = model::free_coordinates(*alone);
-    if (j.type != "prismatic" || (a && b) || std::count(free.begin(), free.end(), true) == 1 ||
+    if (!type.guides() || (a && b) || std::count(free.begin(), free.end(), true) == 1 ||
         joint_is_used(scene, j.name))
       continue;
     for (int c = 0; c < 3; ++c)
@@ -311,5 +313,18 @@ std::string report(const model::Scene& scene) {
 namespace hydrodae {
 
 std::string examine(const model::Scene& scene) { return check::report(scene); }
+
+std::vector<std::pair<std::string, long>> count(const model::Scene& scene) {
+  const system::System built = build::build(scene);
+  const system::Regime s(built);
+  return {{"unknowns", s.n},
+          {"positions", s.n_q},
+          {"velocities", s.n_u},
+          {"states", s.n_z},
+          {"multipliers", s.n_lambda + s.n_mu},
+          {"nonzeros", system::find_pattern(s).nonzeros()},
+          {"degrees_of_freedom", build::mobility(s)},
+          {"constraint_rows", s.n_lambda}};
+}
 
 } // namespace hydrodae

@@ -48,8 +48,9 @@ std::vector<Finding> look_at_rest(const model::Scene& scene, const System& given
   s.starts.clear();
   for (system::BodyData& b : s.bodies)
     b.velocity = b.angular_velocity = Vector3::Zero();
+  std::string instability;
   try {
-    statics::move_to_equilibrium(s);
+    instability = statics::move_to_equilibrium(s).instability;
   } catch (const Error& error) {
     return {{false, error.what()}};
   }
@@ -68,14 +69,14 @@ std::vector<Finding> look_at_rest(const model::Scene& scene, const System& given
                        " deg from its reference pose"});
   }
   for (const std::string& note : s.notes)
-    out.push_back({note.find("unstable") != std::string::npos, "at rest: " + note});
+    out.push_back({note == instability, "at rest: " + note});
   return out;
 }
 
 } // namespace
 
 void write_method(std::ostream& out, const model::Scene& scene) {
-  if (scene.solver.method != "auto")
+  if (model::find_method(scene.solver.method))
     return;
   try {
     model::Scene alone = scene; // without other programs
@@ -86,7 +87,7 @@ void write_method(std::ostream& out, const model::Scene& scene) {
     for (std::size_t k = 1; k < order.methods.size(); ++k)
       out << (k == 1 ? "; where that cannot go on follows " : ", then ") << order.methods[k];
     out << '\n';
-  } catch (const Error&) { // a run tells it
+  } catch (const Error&) { // a run reports it
   }
 }
 

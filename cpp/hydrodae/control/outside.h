@@ -10,7 +10,7 @@ struct Outside : Sampled {
   static constexpr Arity arity = {};
   using Make = std::function<std::unique_ptr<Law>(const Terminals&)>;
   Make make;       ///< the law of one run
-  Make make_again; ///< the law of a second run of the same scene; empty if it cannot begin anew
+  Make make_again; ///< the law of a second run of the same scene; empty if it cannot begin again
 
   std::unique_ptr<Law> law(const Place& place) const {
     if (make)

@@ -14,14 +14,28 @@ struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The case file or the database cannot be used as it is written. The message says where
-/// (file:line:column), what was found, what was expected, and the nearest valid name. Exit code 2.
+/// Where something stands in a file that a person wrote.
+struct FilePlace {
+  std::string file;         ///< or what else gives a key: "--set solver.rtol"
+  int line = 0, column = 0; ///< from 1; 0: unknown
+};
+
+/// "case.toml:12:3", as far as it is known.
+std::string text_of(const FilePlace& place);
+
+/// The case file or the database cannot be used as it is written. The message is `fault` with the
+/// place in front. Exit code 2.
 struct CaseError : Error {
-  using Error::Error;
+  explicit CaseError(const std::string& message) : Error(message), fault(message) {}
+  CaseError(FilePlace at, std::string key_path, const std::string& what_is_wrong);
+
+  FilePlace place;
+  std::string key;   ///< path of the entry or key, such as "joint.hinge1.body_a"; "" without one
+  std::string fault; ///< what was found, what was expected, and the nearest valid name
 };
 
 /// The scene contradicts itself or the physics. `key` is the path of the offending entry, such as
-/// "joint.hinge1.body_a"; the case reader turns it into file:line:column. Exit code 2.
+/// "joint.hinge1.body_a"; the case reader turns it into a CaseError with the place. Exit code 2.
 struct ModelError : Error {
   ModelError(std::string key_path, const std::string& message)
       : Error(message), key(std::move(key_path)) {}

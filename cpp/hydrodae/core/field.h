@@ -14,7 +14,7 @@
 namespace hydrodae {
 
 /// Closed interval of allowed values (in the unit of the file); `open_min` excludes `min` itself. A
-/// `far_max` is far from all sense, and told only to those who exceed it.
+/// `far_max` is far from all sense, and named only where a value exceeds it.
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();

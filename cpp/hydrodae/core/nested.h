@@ -11,7 +11,7 @@ namespace hydrodae {
 template <class T>
 concept NamedType = std::same_as<decltype(&T::type), const std::string_view*>;
 
-/// One sentence of meaning, "" where the struct has none.
+/// One sentence of meaning, "" if absent.
 template <class T> constexpr std::string_view doc_of() {
   if constexpr (requires { T::doc; })
     return T::doc;

@@ -126,7 +126,7 @@ private:
     return true;
   }
 
-  /// One digit behind a symbol, "m3", "s-1", "m^2"; 0: it is none.
+  /// One digit behind a symbol, "m3", "s-1", "m^2"; 0 for anything else.
   int power() {
     const bool told = take('^'), minus = take('-');
     if (at_ >= text_.size() || !std::isdigit(static_cast<unsigned char>(text_[at_])))

@@ -7,7 +7,7 @@
 
 namespace hydrodae::cosim {
 
-/// modelDescription.xml of an FMU. Throws CaseError where the file is no zip archive or has none.
+/// modelDescription.xml of an FMU. Throws CaseError where the file is no zip archive or lacks it.
 std::string read_model_description(const std::string& path);
 
 /// Names of all files inside.

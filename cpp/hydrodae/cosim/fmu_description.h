@@ -15,10 +15,10 @@ struct FmuVariable {
   FmuType kind = FmuType::other;
   std::optional<unsigned> reference;
   bool is_array = false;
-  std::string unit_name;    ///< "bar"; empty: it tells none
+  std::string unit_name;    ///< "bar"; empty if not declared
   std::optional<Unit> unit; ///< where the FMU says what that is
 
-  /// From its unit to that of a signal; none where it tells no unit, or one that nobody knows.
+  /// From its unit to that of a signal; empty where it declares no unit, or an unknown one.
   /// Throws CaseError where they are units of different things.
   Conversion to(const std::string& unit_of_signal, const std::string& name_of_signal) const;
 };
@@ -35,7 +35,7 @@ struct FmuDescription {
   std::string library() const { return binaries() + identifier + ".so"; }
 
   /// The number, boolean or enumeration, or the string, of this name and causality. Throws
-  /// CaseError with the nearest name where there is none.
+  /// CaseError with the nearest name if it is missing.
   const FmuVariable& find(const std::string& name, const std::string& causality,
                           bool text = false) const;
 };

@@ -76,7 +76,7 @@ struct FmuLog {
   void require(int status, const char* function);
 };
 
-/// The size of a serialised state that an FMU tells. Throws CaseError where it cannot be meant.
+/// The size of a serialised state, as an FMU gives it. Throws CaseError where it cannot be meant.
 std::size_t room_of_state(std::size_t size);
 
 /// Throw CaseError where the FMU cannot be instantiated.

@@ -55,7 +55,7 @@ auto give_as(const FmuGroup& group, std::span<const double> values, Set&& set) {
   return set(group.references.data(), numbers.get(), group.references.size());
 }
 
-/// Calls `get(references, numbers, count)`, which throws where there are none.
+/// Calls `get(references, numbers, count)`, which throws where they are missing.
 template <class T, class Get>
 void take_as(const FmuGroup& group, std::span<double> values, Get&& get) {
   const auto numbers = std::make_unique<T[]>(group.places.size());

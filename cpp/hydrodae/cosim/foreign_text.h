@@ -3,7 +3,7 @@
 
 namespace hydrodae::cosim {
 
-/// Text of another program, to be told in a message: what is no UTF-8, and control characters,
+/// Text of another program, to be shown in a message: what is no UTF-8, and control characters,
 /// become '?'; no longer than so many bytes.
 std::string foreign_text(const std::string& text, std::size_t longest = 4096);
 

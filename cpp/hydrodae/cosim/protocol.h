@@ -12,13 +12,13 @@
 
 namespace hydrodae::cosim {
 
-/// Who speaks: as the handshake tells it.
+/// Who speaks: as the handshake states it.
 struct Subject {
   std::string title, controller;
   double period = 0.0, delay = 0.0; ///< [s]
 };
 
-/// Units of the other program, "deg, deg/s"; empty: those that it was told.
+/// Units of the other program, "deg, deg/s"; empty: those that it was sent.
 struct PeerUnits {
   std::string inputs, outputs;
 };
@@ -28,7 +28,7 @@ public:
   virtual ~Protocol() = default;
 
   /// Before the first exchange. Throws Error.
-  /// @returns the units of the other program where it has others than those that it was told
+  /// @returns the units of the other program where it has others than those that it was sent
   virtual PeerUnits greet(Socket& socket, const Subject& subject,
                           const control::Terminals& terminals, double t, double timeout) = 0;
 

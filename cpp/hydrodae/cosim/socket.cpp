@@ -164,7 +164,7 @@ void Socket::send(const void* bytes, std::size_t count, double timeout) {
   }
 }
 
-/// A call that waits by itself costs half of one that is told there is nothing, and another that
+/// A call that waits by itself costs half of two calls: one that finds nothing, and another that
 /// waits.
 void Socket::limit_receive(double timeout) {
   if (timeout == limit_)

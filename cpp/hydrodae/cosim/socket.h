@@ -55,7 +55,7 @@ private:
 /// A port that is listened at, for one connection at a time.
 class Listener {
 public:
-  /// Throws Error where the address is none, or somebody else has the port.
+  /// Throws Error where the address is invalid, or somebody else has the port.
   Listener(const std::string& host, int port);
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;

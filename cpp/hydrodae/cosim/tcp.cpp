@@ -93,7 +93,7 @@ private:
     of_outputs_ = conversions("output", units.outputs, terminals_.outputs);
   }
 
-  /// From the units that the other program tells, "deg, deg/s", to those of the terminals.
+  /// From the units that the other program sends, "deg, deg/s", to those of the terminals.
   std::vector<Conversion> conversions(const std::string& what, const std::string& told,
                                       const std::vector<control::Terminal>& terminals) {
     std::vector<Conversion> out(terminals.size());

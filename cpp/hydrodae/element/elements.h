@@ -61,7 +61,7 @@ struct Unknown {
   bool absolute = false; ///< the scale alone says what counts, not its value, nor how far the
                          ///< bodies move
   double length = 0.0;   ///< of the first of six that are place and velocity of a point: what its
-                         ///< displacements are measured by [m]; 0: it is none
+                         ///< displacements are measured by [m]; 0 for others
 };
 
 /// What a law reports beside its load.
@@ -155,9 +155,11 @@ public:
 
   std::string_view type; ///< as in case files; "hydrostatic" and such for those of the water
   Shape shape;
+  bool buoyant = false;          ///< the pressure of still water
+  bool moors = false;            ///< a mooring as a matrix; what acts between points moors, too
   bool absorbs = false;          ///< a power take-off: what it takes is a device's output
   Work work = Work::spent;       ///< of the loads
-  std::string_view at_rest_only; ///< why its slope at rest tells little; empty: it does not
+  std::string_view at_rest_only; ///< why its slope at rest says little; empty: no reason
   std::string lost; ///< of laws that `lost_at_rest`: what a linear model lacks, in words
   std::vector<std::string_view> parts;      ///< of a load on a body, that are reported beside it
   std::vector<std::string> names;           ///< (n,)

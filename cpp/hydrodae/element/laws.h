@@ -16,8 +16,8 @@
 /// One that acts on points says how many, n_points.
 ///
 /// and F may say at_rest_only, why a linear model knows little of it; lost, what it lacks of those
-/// that are lost_at_rest; work, how its work counts; and that it is timed: that its load depends on
-/// the time by itself.
+/// that are lost_at_rest; work, how its work counts; that it is timed: that its load depends on
+/// the time by itself; and that it is buoyant or moors (see `Elements`).
 ///
 /// A force with states says n_states and unknowns(), and how many of these, the last ones, are
 /// algebraic (n_algebraic): its law answers what is to be zero in place of their rates. One with
@@ -79,6 +79,10 @@ public:
     if constexpr (requires { F::timed; })
       timed = F::timed;
     absorbs = type.starts_with("pto_");
+    if constexpr (requires { F::buoyant; })
+      buoyant = F::buoyant;
+    if constexpr (requires { F::moors; })
+      moors = F::moors;
     if constexpr (requires { F::at_rest_only; })
       at_rest_only = F::at_rest_only;
     if constexpr (requires { F::lost; })

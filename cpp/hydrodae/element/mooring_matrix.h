@@ -16,6 +16,7 @@ namespace hydrodae::element {
 struct MooringMatrix {
   static constexpr std::string_view type = "mooring_matrix";
   static constexpr Port port = Port::on_body;
+  static constexpr bool moors = true;
   static constexpr std::string_view doc =
       "Mooring as a linear matrix about the reference pose of a body: F = F0 - K xi - C v.";
   std::string name;

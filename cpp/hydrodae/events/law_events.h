@@ -31,7 +31,7 @@ public:
   void remember(Archive& a);
 
 private:
-  // Null: there are none.
+  // Null if absent.
   std::unique_ptr<Partings> partings_;
   std::unique_ptr<Slips> slips_;
   std::unique_ptr<Kinks> kinks_;

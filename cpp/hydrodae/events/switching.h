@@ -5,11 +5,12 @@
 ///   friction  stick: s' = 0, |load| <= static;  slip: load = -kinetic sign(s')
 ///
 /// Between events the equations are smooth, and any integrator solves them; the times at which a
-/// row has to come or go are located on its interpolant, and it starts anew there. At an impact the
-/// velocities jump by impulses of the joints and stops (Newton's law of restitution; Brogliato,
-/// Nonsmooth Mechanics, 2016, ch. 4). Friction that its joint presses has impulses too; of others,
-/// whose load is bounded, there are none. Where friction and restitution together would give energy
-/// (Kane and Levinson, J. Applied Mechanics 52 (1985) 976), all rebounds are lowered alike.
+/// row has to come or go are located on its interpolant, and it starts again there. At an impact
+/// the velocities jump by impulses of the joints and stops (Newton's law of restitution; Brogliato,
+/// Nonsmooth Mechanics, 2016, ch. 4). Friction that its joint presses has impulses too; other
+/// friction, whose load is bounded, has no impulse. Where friction and restitution together would
+/// give energy (Kane and Levinson, J. Applied Mechanics 52 (1985) 976), all rebounds are lowered
+/// alike.
 
 #include <memory>
 #include <optional>

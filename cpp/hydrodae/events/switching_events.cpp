@@ -64,7 +64,7 @@ std::optional<double> Switching::impacts(double t, VectorX& y, VectorX& yp) {
     const Motion m = motion(s_.switches[k]);
     const bool upper = approach(k) == m.rate;
     const double rebound = -s_.switches[k].restitution * m.rate;
-    // A rebound of a height below the tolerance, some rtol times the motion, is none: v^2 / 2 a
+    // A rebound of a height below the tolerance, rtol times the motion, is zero: v^2 / 2 a
     // under the acceleration towards the stop. Nothing else brings a slow one back.
     const Size& size = size_[k];
     const double pressed = (upper ? m.acceleration : -m.acceleration) * size.length,
@@ -79,7 +79,7 @@ std::optional<double> Switching::impacts(double t, VectorX& y, VectorX& yp) {
   for (std::size_t k = 0; k < count; ++k) {
     const Data& element = s_.switches[k];
     if (element.kind == Kind::friction) {
-      set(k, State::open); // the motion jumps: it slips, or sticks anew
+      set(k, State::open); // the motion jumps: it slips, or sticks again
     } else if (s_.holds(element)) {
       acts[k] = true;
     } else if (touches(k) && approach(k) > resting * size_[k].rate) {

@@ -8,7 +8,7 @@
 ///   sum_j a_j e^{k_j c} = sum_m b_m e^{k_m c},   b_m = sum_j L_m(k_j) a_j
 ///
 /// up to 2 (h |c| / 2)^M / M! e^{2 h |c|} of |a_j e^{k_j c}| for M nodes and half the range h of k.
-/// Some 20 nodes stand for hundreds of waves to 1e-13; derivatives of the right side by the place
+/// About 20 nodes stand for hundreds of waves to 1e-13; derivatives of the right side by the place
 /// are those of what is evaluated.
 
 #include <vector>

@@ -33,7 +33,7 @@ public:
   /// How the table tests itself: every other heading is left out (the ends of a fan stay), and the
   /// forces there are interpolated from the rest. Rows: what that misses, from the forces (n, nh).
   /// Of four headings all round the row is the amplitude of their one spare harmonic, cos 2 b.
-  /// Empty for fewer headings and for a fan of three, which tell nothing about themselves.
+  /// Empty for fewer headings and for a fan of three, which give no check of themselves.
   const MatrixX& misses() const { return misses_; }
 
   /// The share of the largest force over the headings by which forces between them may be off, from

@@ -81,7 +81,7 @@ const DatabaseBody* body_at(const Database& db, const DatabaseBody& itself, cons
   return found == db.bodies.end() ? nullptr : &*found;
 }
 
-/// The image under M; nothing where a coordinate has none.
+/// The image under M; empty where a coordinate lacks one.
 std::optional<Image> image_under(const Database& db, const std::vector<Coordinate>& all,
                                  const Eigen::Matrix2d& M) {
   const double det = M.determinant();

@@ -205,8 +205,8 @@ void Collocation::start_values(double h, bool extrapolate) {
   }
 }
 
-/// One Jacobian for all stages: in the middle of the step, where the last polynomial tells, so that
-/// it differs least from that of any stage; else at the start.
+/// One Jacobian for all stages: in the middle of the step, by the last polynomial if there is one:
+/// so that it differs least from that of any stage; else at the start.
 void Collocation::jacobian(double h, bool extrapolate) {
   if (extrapolate) {
     const double x = 1.0 + 0.5 * h / done_;
@@ -220,8 +220,8 @@ void Collocation::jacobian(double h, bool extrapolate) {
   factored_ = extra_ = 0.0;
 }
 
-/// Do the matrices at hand serve a step h? Where Newton contracts at once; where they are dear,
-/// until the iterations that they cost beyond those of new ones are worth a renewal.
+/// Do the matrices at hand serve a step h? Where Newton contracts at once; where they are
+/// expensive, until the iterations that they cost beyond those of new ones are worth a renewal.
 bool Collocation::serves(double h) const {
   constexpr double same = 1e-9;
   constexpr double dear = 4.0; // iterations

@@ -59,9 +59,16 @@ struct IdaDeleter {
 template <class Handle, class Deleter>
 using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Deleter>;
 
+/// Without a handler of errors: our own messages say more.
 SUNContext make_context() {
   SUNContext context = nullptr;
-  if (SUNContext_Create(nullptr, &context) < 0)
+#if SUNDIALS_VERSION_MAJOR < 7
+  const int failed = SUNContext_Create(nullptr, &context);
+#else // one handler for all that a context owns; in version 6 each solver has its own
+  const int failed =
+      SUNContext_Create(SUN_COMM_NULL, &context) || SUNContext_ClearErrHandlers(context);
+#endif
+  if (failed)
     throw SolverError(0.0, {Reason::solver, "SUNContext_Create failed"});
   return context;
 }
@@ -111,7 +118,7 @@ public:
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   int degree() const override { return counts().last_order; }
   linalg::Statistics statistics() const override;
-  void remember(Archive& a) override { a(rounding, restarts, guard); } // the order begins anew
+  void remember(Archive& a) override { a(rounding, restarts, guard); } // the order is 1 again
 
 private:
   const system::Regime& system;
@@ -223,9 +230,10 @@ void Ida::start(const model::SolverOptions& options, const VectorX& y0, const Ve
             : 1.0 + system.error_group[static_cast<std::size_t>(i)];
   memory.reset(made(IDACreate(context.get()), "IDACreate"));
   void* ida = memory.get();
-  check(IDASetErrHandlerFn(
-            ida, [](int, const char*, const char*, char*, void*) {}, nullptr),
-        "IDASetErrHandlerFn"); // our own messages say more
+#if SUNDIALS_VERSION_MAJOR < 7
+  const auto silent = [](int, const char*, const char*, char*, void*) {};
+  check(IDASetErrHandlerFn(ida, silent, nullptr), "IDASetErrHandlerFn");
+#endif
   check(IDAInit(ida, residual, t_, y.get(), yp.get()), "IDAInit");
   check(IDASetUserData(ida, this), "IDASetUserData");
   check(IDAWFtolerances(ida, weights), "IDAWFtolerances");

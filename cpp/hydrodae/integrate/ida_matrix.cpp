@@ -9,21 +9,21 @@ namespace hydrodae::integrate {
 namespace {
 
 SUNMatrix_ID custom_matrix(SUNMatrix) { return SUNMATRIX_CUSTOM; }
-int keep_matrix(SUNMatrix) { return SUNMAT_SUCCESS; }
+int keep_matrix(SUNMatrix) { return 0; }
 
 SUNLinearSolver_Type direct(SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; }
 
 int factorise_matrix(SUNLinearSolver solver, SUNMatrix) {
   IdaMatrix& m = *static_cast<IdaMatrix*>(solver->content);
   constexpr bool careful = true; // one matrix serves many steps
-  return m.newton.factorise(*m.parts, m.alpha, careful) ? SUNLS_SUCCESS : SUNLS_LUFACT_FAIL;
+  return m.newton.factorise(*m.parts, m.alpha, careful) ? 0 : SUNLS_LUFACT_FAIL;
 }
 
 int solve_matrix(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, double) {
   const double* given = N_VGetArrayPointer(b);
   std::copy(given, given + N_VGetLength(b), N_VGetArrayPointer(x));
   static_cast<IdaMatrix*>(solver->content)->newton.solve(N_VGetArrayPointer(x));
-  return SUNLS_SUCCESS;
+  return 0;
 }
 
 } // namespace
@@ -48,7 +48,7 @@ SUNLinearSolver make_ida_solver(IdaMatrix& matrix, SUNContext context) {
   solver->ops->solve = solve_matrix;
   solver->ops->free = [](SUNLinearSolver s) -> int {
     SUNLinSolFreeEmpty(s);
-    return SUNLS_SUCCESS;
+    return 0;
   };
   return solver;
 }

@@ -53,7 +53,7 @@ public:
 
   /// Weights with which the method's own stages sum up a quadrature over the last step, and the
   /// state of stage i > 0, whose time it returns [s]; the first stage is the start of the step.
-  /// Empty: it has none, or not all loads follow from positions, velocities and states there.
+  /// Empty: no stages, or not all loads follow from positions, velocities and states there.
   virtual std::span<const double> stage_weights() const { return {}; }
   virtual double stage(std::size_t, VectorX&, VectorX&) { return 0.0; }
 

@@ -15,7 +15,7 @@ public:
   ///   worth where the method closes these itself
   SampleClosing(const system::Regime& system, const system::Pattern& pattern, bool rates);
 
-  /// To be told of each step's end: drives and couplers of angles know on which turn these are.
+  /// To be called at each step's end: drives and couplers of angles know on which turn these are.
   void accept(double t, const VectorX& y, const VectorX& yp) {
     equations_.accept(t, y, yp);
     linearised_ = false;
@@ -27,7 +27,7 @@ public:
   void close(double t, VectorX& y);
 
   /// Reactions and accelerations of a scene at rest, from the loads at t: steps are as long as the
-  /// motion allows, and where there is none the multipliers between their ends follow no load.
+  /// motion allows, and without motion the multipliers between their ends follow no load.
   void hold(double t, VectorX& y, VectorX& yp);
 
 private:

@@ -1,5 +1,5 @@
 #pragma once
-/// How fast the equations are against the motion: what tells whether steps of an explicit method
+/// How fast the equations are against the motion: this decides whether steps of an explicit method
 /// would follow the accuracy asked for, or the stability of what hardly moves.
 
 #include "hydrodae/system/jacobian.h"

@@ -11,6 +11,13 @@
 namespace hydrodae::io {
 namespace {
 
+constexpr std::string_view option = "--set ";
+
+/// `place`: "--set solver.rtol".
+[[noreturn]] void refuse(const std::string& place, const std::string& fault) {
+  throw CaseError({place}, place.substr(option.size()), fault);
+}
+
 std::vector<std::string> split(const std::string& key, const std::string& place) {
   std::vector<std::string> parts;
   std::size_t start = 0;
@@ -18,7 +25,7 @@ std::vector<std::string> split(const std::string& key, const std::string& place)
     const std::size_t dot = key.find('.', start);
     parts.push_back(key.substr(start, dot - start));
     if (parts.back().empty())
-      throw CaseError(place + ": expected a dotted key such as solver.rtol or joint.hinge1.type");
+      refuse(place, "expected a dotted key such as solver.rtol or joint.hinge1.type");
     if (dot == std::string::npos)
       return parts;
     start = dot + 1;
@@ -47,8 +54,8 @@ toml::table parse_value(const std::string& text, const std::string& place) {
     if (is_bare_word(text))
       return toml::parse("value = '" + text + "'", place);
   }
-  throw CaseError(place + ": the value " + in_quotes(text) +
-                  " is not TOML (numbers, true, false, \"text\", [lists])");
+  refuse(place,
+         "the value " + in_quotes(text) + " is not TOML (numbers, true, false, \"text\", [lists])");
 }
 
 toml::table& entry_of(toml::array& list, const std::string& kind, const std::string& name,
@@ -63,14 +70,14 @@ toml::table& entry_of(toml::array& list, const std::string& kind, const std::str
       return *table;
     names.push_back(other);
   }
-  throw CaseError(place + ": no " + kind + " " + in_quotes(name) + suggestion(name, names));
+  refuse(place, "no " + kind + " " + in_quotes(name) + suggestion(name, names));
 }
 
 toml::source_region source_of(const std::string& place) {
   return {{1, 1}, {1, 1}, std::make_shared<const std::string>(place)};
 }
 
-/// The table under `part`, made if there is none.
+/// The table under `part`, made if it is missing.
 toml::node& step_into(toml::table& table, const std::string& part, const std::string& place) {
   if (!table.contains(part))
     table.emplace<toml::table>(toml::key(part, source_of(place)));
@@ -84,13 +91,13 @@ toml::table& owner_of(toml::table& root, const std::vector<std::string>& parts,
     toml::node& node = step_into(*table, parts[i], place);
     if (toml::array* list = node.as_array()) {
       if (i + 2 >= parts.size())
-        throw CaseError(place + ": expected " + parts[i] + ".<name>.<key>");
+        refuse(place, "expected " + parts[i] + ".<name>.<key>");
       table = &entry_of(*list, parts[i], parts[i + 1], place);
       ++i;
     } else if (node.is_table()) {
       table = node.as_table();
     } else {
-      throw CaseError(place + ": " + in_quotes(parts[i]) + " is a value, it holds no keys");
+      refuse(place, "" + in_quotes(parts[i]) + " is a value, it holds no keys");
     }
   }
   return *table;
@@ -100,7 +107,7 @@ toml::table& owner_of(toml::table& root, const std::vector<std::string>& parts,
 
 void apply_overrides(toml::table& root, const Overrides& overrides) {
   for (const auto& [key, text] : overrides) {
-    const std::string place = "--set " + key;
+    const std::string place = std::string(option) + key;
     const std::vector<std::string> parts = split(key, place);
     toml::table value = parse_value(text, place);
     toml::table& owner = owner_of(root, parts, place);

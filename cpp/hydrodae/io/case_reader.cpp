@@ -24,47 +24,47 @@ namespace {
 
 toml::table parse_toml(const std::string& text, const std::string& name) {
   if (text.starts_with("\x89HDF")) // the signature of HDF5
-    throw CaseError(name +
-                    ": is an HDF5 file, as results and databases are; a case is a TOML file");
+    throw CaseError({name}, "",
+                    "is an HDF5 file, as results and databases are; a case is a TOML file");
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
-    throw CaseError(position(error.source()) + ": " + std::string(error.description()));
+    throw CaseError(place_of(error.source()), "", std::string(error.description()));
   }
 }
 
 /// Where a table begins, or its key where it has no header (made by an override).
-std::string table_position(const toml::table& root, const std::string& name) {
+FilePlace table_place(const toml::table& root, const std::string& name) {
   const auto found = root.find(name);
   const toml::source_region& source = found->second.source();
-  return position(source.path ? source : found->first.source());
+  return place_of(source.path ? source : found->first.source());
 }
 
 /// [name], if the case has it.
 template <class T>
-bool read_single(const toml::table& root, const std::string& name, Positions& positions, T& out) {
+bool read_single(const toml::table& root, const std::string& name, Places& places, T& out) {
   const toml::node* node = root.get(name);
   if (!node)
     return false;
   if (!node->is_table())
-    throw CaseError(table_position(root, name) + ": " + in_quotes(name) +
-                    " must be one table: write [" + name + "]");
-  positions[name] = table_position(root, name);
-  const Table table{*node->as_table(), "[" + name + "]", name, positions[name], name, ""};
-  out = read_table<T>(table, positions);
+    throw CaseError(table_place(root, name), name,
+                    in_quotes(name) + " must be one table: write [" + name + "]");
+  places[name] = table_place(root, name);
+  const Table table{*node->as_table(), "[" + name + "]", name, places[name], name, ""};
+  out = read_table<T>(table, places);
   return true;
 }
 
 /// Calls `read(table)` for each entry [[name]].
 template <class Read>
-void for_each_entry(const toml::table& root, const std::string& name, Positions& positions,
+void for_each_entry(const toml::table& root, const std::string& name, Places& places,
                     const Read& read) {
   const toml::node* node = root.get(name);
   if (!node)
     return;
   if (!node->is_array_of_tables())
-    throw CaseError(table_position(root, name) + ": " + in_quotes(name) +
-                    " must be a list of tables: write [[" + name + "]]");
+    throw CaseError(table_place(root, name), name,
+                    in_quotes(name) + " must be a list of tables: write [[" + name + "]]");
   int count = 0;
   for (const toml::node& item : *node->as_array()) {
     ++count;
@@ -72,21 +72,20 @@ void for_each_entry(const toml::table& root, const std::string& name, Positions&
     const std::string number = "#" + std::to_string(count);
     const auto given = entry["name"].value<std::string>();
     const std::string path = name + "." + given.value_or(number);
-    positions[path] = position(item.source());
+    places[path] = place_of(item.source());
     read(Table{entry, "[[" + name + "]] " + (given ? in_quotes(*given) : number), path,
-               positions[path], name, entry["type"].value<std::string>().value_or("")});
+               places[path], name, entry["type"].value<std::string>().value_or("")});
   }
 }
 
 /// Reads an entry of a list of typed structs: calls `read(std::type_identity<T>{})` with the one of
 /// its `type`. `for_each_type` calls with each of them.
 template <class ForEach, class Read>
-void read_typed(const Table& table, Positions& positions, const ForEach& for_each,
-                const Read& read) {
+void read_typed(const Table& table, Places& places, const ForEach& for_each, const Read& read) {
   std::vector<std::string> types;
   for_each([&]<class T>(std::type_identity<T>) { types.emplace_back(T::type); });
-  Key key{"type", "-", any_value, {types.begin(), types.end()}, ""};
-  const toml::node* node = find_key(table, key, positions);
+  Key key{"type", "-", any_value, {types.begin(), types.end()}};
+  const toml::node* node = find_key(table, key, places);
   if (!node)
     missing_key(table, "type", "-", "Kind of " + table.kind + ": " + joined(types));
   std::string type;
@@ -98,14 +97,14 @@ void read_typed(const Table& table, Positions& positions, const ForEach& for_eac
 }
 
 /// Refuses keys that a joint of this type does not have. A wrong type is refused later.
-void check_joint_keys(const Table& entry, Positions& positions) {
+void check_joint_keys(const Table& entry, Places& places) {
   const joint::JointType* type = joint::find_joint_type(entry.type);
   if (!type)
     return;
   const model::JointKeys keys = model::joint_keys(*type);
   check_keys(entry, keys.own);
   if (const toml::node* initial = entry.node.get("initial"))
-    check_keys(nested_table(entry, *initial, "initial", positions), keys.initial);
+    check_keys(nested_table(entry, *initial, "initial", places), keys.initial);
 }
 
 /// Reads each table into its member of the scene.
@@ -114,42 +113,42 @@ struct TableReader {
   model::Scene& scene;
 
   template <class T> void operator()(const std::string& name, T model::Scene::* member) const {
-    read_single(root, name, scene.positions, scene.*member);
+    read_single(root, name, scene.places, scene.*member);
   }
   template <class T>
   void operator()(const std::string& name, std::optional<T> model::Scene::* member) const {
     T value;
-    if (read_single(root, name, scene.positions, value))
+    if (read_single(root, name, scene.places, value))
       scene.*member = value;
   }
   template <class T>
   void operator()(const std::string& name, std::vector<T> model::Scene::* member) const {
-    for_each_entry(root, name, scene.positions, [&](const Table& entry) {
-      (scene.*member).push_back(read_table<T>(entry, scene.positions));
+    for_each_entry(root, name, scene.places, [&](const Table& entry) {
+      (scene.*member).push_back(read_table<T>(entry, scene.places));
     });
   }
   template <class S, class... T>
   void operator()(const std::string& name,
                   std::vector<OneOf<S, T...>> model::Scene::* member) const {
     const auto types = [](const auto& visit) { OneOf<S, T...>::for_each_type(visit); };
-    for_each_entry(root, name, scene.positions, [&](const Table& entry) {
-      read_typed(entry, scene.positions, types, [&]<class Own>(std::type_identity<Own>) {
-        (scene.*member).emplace_back(read_table<Own>(entry, scene.positions));
+    for_each_entry(root, name, scene.places, [&](const Table& entry) {
+      read_typed(entry, scene.places, types, [&]<class Own>(std::type_identity<Own>) {
+        (scene.*member).emplace_back(read_table<Own>(entry, scene.places));
       });
     });
   }
   void operator()(const std::string& name, std::vector<model::Joint> model::Scene::* member) const {
-    for_each_entry(root, name, scene.positions, [&](const Table& entry) {
-      check_joint_keys(entry, scene.positions);
-      (scene.*member).push_back(read_table<model::Joint>(entry, scene.positions));
+    for_each_entry(root, name, scene.places, [&](const Table& entry) {
+      check_joint_keys(entry, scene.places);
+      (scene.*member).push_back(read_table<model::Joint>(entry, scene.places));
     });
   }
   void operator()(const std::string& name, model::Forces model::Scene::* member) const {
     const auto types = [](const auto& visit) { model::for_each_force_type(visit); };
-    for_each_entry(root, name, scene.positions, [&](const Table& entry) {
-      read_typed(entry, scene.positions, types, [&]<class Force>(std::type_identity<Force>) {
+    for_each_entry(root, name, scene.places, [&](const Table& entry) {
+      read_typed(entry, scene.places, types, [&]<class Force>(std::type_identity<Force>) {
         std::get<std::vector<Force>>(scene.*member)
-            .push_back(read_table<Force>(entry, scene.positions));
+            .push_back(read_table<Force>(entry, scene.places));
       });
     });
   }
@@ -158,18 +157,22 @@ struct TableReader {
 /// The tables that there are.
 model::Scene read_tables(const toml::table& root, const std::string& name) {
   model::Scene scene;
-  const Table top{root, "the case", "", name + ":1:1", "", ""};
+  const Table top{root, "the case", "", {name, 1, 1}, "", ""};
   std::vector<std::string> keys = model::table_names();
   keys.insert(keys.begin(), "title");
   check_keys(top, keys);
-  Key title{"title", "-", any_value, {}, ""};
-  if (const toml::node* node = find_key(top, title, scene.positions))
+  Key title{"title", "-", any_value, {}};
+  if (const toml::node* node = find_key(top, title, scene.places))
     read_value(*node, title, scene.title);
   model::for_each_table(TableReader{root, scene});
   return scene;
 }
 
-/// `path` is relative to the case; `place` is the key that has it.
+CaseError error_at(const model::Scene& scene, const std::string& key, const std::string& fault) {
+  return {scene.places.at(key), key, fault};
+}
+
+/// `path` is relative to the case; `key` is the one that has it.
 std::shared_ptr<const hydro::Database>
 read_database(const model::Scene& scene, const std::string& directory, const std::string& path,
               const std::string& key, const std::string& what) {
@@ -182,7 +185,7 @@ read_database(const model::Scene& scene, const std::string& directory, const std
                         {!scene.waves.empty(), turns || scene.hydro->radiation == "constant",
                          scene.hydro->radiation == "convolution"}));
   } catch (const CaseError& error) {
-    throw CaseError(scene.positions.at(key) + ": " + what + ": " + error.what());
+    throw error_at(scene, key, what + ": " + error.what());
   }
 }
 
@@ -204,15 +207,17 @@ void read_records(model::Scene& scene, const std::string& directory) {
     auto* wave = any.as<sea::Measured>();
     if (!wave || !wave->file)
       continue;
+    const std::string key = "wave." + wave->name + ".file";
     if (!wave->time.empty() || !wave->elevation.empty())
-      throw CaseError(scene.positions.at("wave." + wave->name + ".file") + ": wave " +
-                      in_quotes(wave->name) + ": give either 'file', or 'time' and 'elevation'");
+      throw error_at(scene, key,
+                     "wave " + in_quotes(wave->name) +
+                         ": give either 'file', or 'time' and 'elevation'");
     const std::filesystem::path path = std::filesystem::path(directory) / *wave->file;
     try {
       read_record(path.lexically_normal().string(), wave->time, wave->elevation);
     } catch (const CaseError& error) {
-      throw CaseError(scene.positions.at("wave." + wave->name + ".file") +
-                      ": key 'file' in [[wave]] " + in_quotes(wave->name) + ": " + error.what());
+      throw error_at(scene, key,
+                     "key 'file' in [[wave]] " + in_quotes(wave->name) + ": " + error.what());
     }
   }
 }
@@ -228,8 +233,8 @@ void read_meshes(model::Scene& scene, const std::string& directory) {
       body.hull = std::make_shared<hull::Mesh>(hull::make_mesh(
           surface.vertices, surface.triangles, body.center_of_gravity - body.mesh_origin));
     } catch (const Error& error) {
-      throw CaseError(scene.positions.at("body." + body.name + ".mesh") +
-                      ": key 'mesh' in [[body]] " + in_quotes(body.name) + ": " + error.what());
+      throw error_at(scene, "body." + body.name + ".mesh",
+                     "key 'mesh' in [[body]] " + in_quotes(body.name) + ": " + error.what());
     }
   }
 }
@@ -244,8 +249,8 @@ void find_fmus(model::Scene& scene, const std::string& directory) {
     try {
       c->sha256 = sha256_of_file(c->path);
     } catch (const CaseError& error) {
-      throw CaseError(scene.positions.at("controller." + c->name + ".file") +
-                      ": key 'file' in [[controller]] " + in_quotes(c->name) + ": " + error.what());
+      throw error_at(scene, "controller." + c->name + ".file",
+                     "key 'file' in [[controller]] " + in_quotes(c->name) + ": " + error.what());
     }
   }
 }
@@ -256,7 +261,7 @@ model::Scene parse(const std::string& text, const std::string& directory,
   apply_overrides(root, overrides);
   model::Scene scene = read_tables(root, name);
   if (!root.contains("solver"))
-    throw CaseError(name + ":1:1: missing table [solver]");
+    throw CaseError({name, 1, 1}, "solver", "missing table [solver]");
   scene.path = path;
   scene.text = text;
   for (const auto& [key, value] : overrides)
@@ -273,7 +278,7 @@ model::Scene parse(const std::string& text, const std::string& directory,
     model::fill_in_masses(scene);
     model::check(scene);
   } catch (const ModelError& error) {
-    throw CaseError(model::located(scene, error));
+    throw model::located(scene, error);
   }
   for (model::Constraint& constraint : scene.constraints) // after the check: a spline needs a table
     if (auto* driven = constraint.as<model::DrivenCoordinate>())
@@ -286,10 +291,10 @@ model::Scene parse(const std::string& text, const std::string& directory,
 model::Scene read_case(const std::string& path, const Overrides& overrides) {
   std::error_code ignored; // what cannot be asked cannot be opened either
   if (std::filesystem::is_directory(path, ignored))
-    throw CaseError(path + ": is a folder; give the case file in it");
+    throw CaseError({path}, "", "is a folder; give the case file in it");
   std::ifstream file(path, std::ios::binary);
   if (!file)
-    throw CaseError(path + ": cannot read the case file: " + std::strerror(errno));
+    throw CaseError({path}, "", std::string("cannot read the case file: ") + std::strerror(errno));
   std::ostringstream text;
   text << file.rdbuf();
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();

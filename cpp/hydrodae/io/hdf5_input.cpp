@@ -81,7 +81,7 @@ Input::Input(const std::string& path) : path_(path) {
 }
 
 void Input::refuse(const std::string& object, const std::string& message) const {
-  throw CaseError(path_ + ": " + object + ": " + message);
+  throw CaseError({path_}, "", object + ": " + message);
 }
 
 bool Input::has_object(const std::string& object) const {
@@ -170,7 +170,7 @@ void Input::require_shape(const Source& source, const std::vector<hsize_t>& shap
                             shape_text(shape));
 }
 
-/// A list, whose length the file alone tells.
+/// A list, whose length only the file knows.
 void Input::require_list(const Source& source, hsize_t longest) const {
   if (source.shape.size() != 1)
     refuse(source.name, "expected a list, found shape " + shape_text(source.shape));

@@ -68,10 +68,10 @@ std::vector<Offer> open(const std::string& path) {
 void give(element::LibraryLaw& force, bool on_body, const std::vector<Offer>& offers,
           const model::Scene& scene) {
   const std::string key = "force." + force.name;
-  const auto place = scene.positions.find(key + ".law");
+  const auto place = scene.places.find(key + ".law");
   const auto refuse = [&](const std::string& why) {
-    throw CaseError((place == scene.positions.end() ? "" : place->second + ": ") + "force " +
-                    in_quotes(force.name) + ": " + why);
+    throw CaseError(place == scene.places.end() ? FilePlace{} : place->second, key + ".law",
+                    "force " + in_quotes(force.name) + ": " + why);
   };
   std::vector<std::string> names;
   force.found = nullptr;

@@ -28,13 +28,13 @@ using Corner = std::array<double, 3>;
 using Corners = std::vector<Corner>;
 
 [[noreturn]] void refuse(const std::string& path, std::size_t line, const std::string& message) {
-  throw CaseError(path + ":" + std::to_string(line) + ": " + message);
+  throw CaseError({path, static_cast<int>(line)}, "", message);
 }
 
 std::string read_bytes(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file)
-    throw CaseError(path + ": cannot read the mesh: " + std::strerror(errno));
+    throw CaseError({path}, "", std::string("cannot read the mesh: ") + std::strerror(errno));
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();
@@ -171,15 +171,15 @@ bool ends_with(const std::string& path, std::string_view end) {
 Surface read_surface(const std::string& path) {
   const bool stl = ends_with(path, ".stl") || ends_with(path, ".STL");
   if (!stl && !ends_with(path, ".obj") && !ends_with(path, ".OBJ"))
-    throw CaseError(
-        path + ": a mesh is an .stl or .obj file; 'hydrodae hdb hull FILE -o hull.stl' makes one "
-               "of .gdf, .pnl and others");
+    throw CaseError({path}, "",
+                    "a mesh is an .stl or .obj file; 'hydrodae hdb hull FILE -o hull.stl' makes "
+                    "one of .gdf, .pnl and others");
   const std::string bytes = read_bytes(path);
   const Corners corners = !stl                   ? obj(bytes, path)
                           : is_binary_stl(bytes) ? binary_stl(bytes)
                                                  : text_stl(bytes, path);
   if (corners.empty())
-    throw CaseError(path + ": there is no triangle in this file");
+    throw CaseError({path}, "", "there is no triangle in this file");
   return join(corners);
 }
 

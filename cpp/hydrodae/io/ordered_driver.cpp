@@ -79,7 +79,7 @@ H5FD_class_t driver_class() {
   H5FD_class_t c{};
 #if H5_VERSION_GE(1, 13, 0)
   c.version = H5FD_CLASS_VERSION;
-  c.value = 520; // of the range for drivers of one's own
+  c.value = 520; // of the range for private drivers
 #endif
   c.name = "hydrodae_ordered";
   c.maxaddr = HADDR_MAX / 2;

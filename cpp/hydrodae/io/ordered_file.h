@@ -5,10 +5,11 @@
 /// HDF5 writes metadata as it evicts and flushes them, in an order of its own: a process that dies
 /// between two writes leaves pointers to what is not there. Here an HDF5 file driver keeps
 /// metadata in memory until `commit`, which brings them to disk in an order in which each prefix is
-/// a readable file: (1) blocks that nothing on disk points to yet, (2) the superblock with the new
-/// end of file, (3) changed nodes of indices, parents before children, (4) changed object headers,
-/// which hold the sizes of datasets, from the last to the first: those of the file's root group and
-/// first dataset come last. Raw data go straight to disk: they lie beyond what sizes on disk reach.
+/// a readable file. First come blocks that nothing on disk points to yet, and second the superblock
+/// with the new end of file. Third come changed nodes of indices, parents before children. Changed
+/// object headers, which hold the sizes of datasets, are the end: from the last to the first, so
+/// that those of the file's root group and first dataset come last. Raw data go straight to disk:
+/// they lie beyond what sizes on disk reach.
 ///
 /// This relies on nothing being freed and used again: datasets only grow, and attributes are
 /// added or overwritten by values of the same size.

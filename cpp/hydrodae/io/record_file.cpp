@@ -30,7 +30,7 @@ std::vector<std::string> cells(const std::string& line) {
 }
 
 /// Place of a column by its name without the unit.
-std::size_t column(const std::string& where, const std::vector<std::string>& head,
+std::size_t column(const FilePlace& where, const std::vector<std::string>& head,
                    const std::string& name) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < head.size(); ++k) {
@@ -38,19 +38,19 @@ std::size_t column(const std::string& where, const std::vector<std::string>& hea
     if (names.back() == name)
       return k;
   }
-  throw CaseError(where +
-                  ": expected the names of the columns, among them 'time' and 'elevation'; "
+  throw CaseError(where, "",
+                  "expected the names of the columns, among them 'time' and 'elevation'; "
                   "there is no " +
-                  in_quotes(name) + " (found: " + joined(names) + ")");
+                      in_quotes(name) + " (found: " + joined(names) + ")");
 }
 
-double number(const std::string& where, const std::vector<std::string>& row, std::size_t k,
+double number(const FilePlace& where, const std::vector<std::string>& row, std::size_t k,
               const std::string& name) {
   const std::string text = k < row.size() ? row[k] : "";
   double x = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(x))
-    throw CaseError(where + ": " + name + " must be a number, got " + in_quotes(text));
+    throw CaseError(where, "", name + " must be a number, got " + in_quotes(text));
   return x;
 }
 
@@ -60,13 +60,15 @@ void read_record(const std::string& path, std::vector<double>& time,
                  std::vector<double>& elevation) {
   std::ifstream file(path);
   if (!file)
-    throw CaseError(path + ": cannot read it: " + std::strerror(errno));
+    throw CaseError({path}, "", std::string("cannot read it: ") + std::strerror(errno));
   std::string line;
-  std::size_t count = 0, t = 0, eta = 0;
+  int count = 0;
+  std::size_t t = 0, eta = 0;
   bool named = false;
   while (std::getline(file, line)) {
     ++count;
-    const std::string where = path + ":" + std::to_string(count), text = trimmed(line);
+    const FilePlace where{path, count};
+    const std::string text = trimmed(line);
     if (text.empty() || text[0] == '#')
       continue;
     const std::vector<std::string> row = cells(line);
@@ -80,7 +82,7 @@ void read_record(const std::string& path, std::vector<double>& time,
     elevation.push_back(number(where, row, eta, "elevation"));
   }
   if (!named)
-    throw CaseError(path + ": is empty; expected columns 'time' and 'elevation'");
+    throw CaseError({path}, "", "is empty; expected columns 'time' and 'elevation'");
 }
 
 } // namespace hydrodae::io

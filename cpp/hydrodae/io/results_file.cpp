@@ -31,7 +31,7 @@ public:
     const bool is_real = std::holds_alternative<double>(value);
     const hid_t type =
         is_text ? static_cast<hid_t>(text_) : (is_real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64);
-    // Overwritten rather than made anew: that changes one block of the file.
+    // Overwritten rather than made again: that changes one block of the file.
     const bool exists = checked(H5Aexists(object, name.c_str()), what) > 0;
     const Handle attribute =
         checked(exists ? H5Aopen(object, name.c_str(), H5P_DEFAULT)
@@ -318,7 +318,7 @@ ResultsFile::~ResultsFile() {
     f.columns.clear();
     f.file.reset();
     f.disk.commit();
-  } catch (const Error&) { // a destructor has nobody to tell; the status stays "running"
+  } catch (const Error&) { // a destructor must not throw; the status stays "running"
   }
 }
 
@@ -371,7 +371,7 @@ void ResultsFile::close(const std::string& status, const std::string& message,
   Impl& f = *impl_;
   if (std::exchange(f.closed, true))
     return;
-  std::string failure; // that nobody has told yet
+  std::string failure; // not reported yet
   if (f.disk.failure().empty()) {
     try {
       f.commit();

@@ -43,14 +43,14 @@ public:
   void flush_if_due();
 
   /// Adds a table of rows of `width` numbers that are known at the end only, with attributes; to be
-  /// called before `close`. A failure to write is left to `close` to tell.
+  /// called before `close`. `close` reports a failure to write.
   void write_table(const std::string& path, int width, std::span<const double> values,
                    const Attributes& attributes);
 
   /// Writes what is buffered, the status ("completed", "interrupted", "failed"), the message and
   /// the statistics (attributes of group `solver`), and gives the file its final name.
   /// Where that fails, the status becomes "failed", what was written before stays, and SolverError
-  /// is thrown unless `append` has told it. Does nothing the second time.
+  /// is thrown unless `append` has thrown it. Does nothing the second time.
   void close(const std::string& status, const std::string& message, const Attributes& statistics);
 
 private:

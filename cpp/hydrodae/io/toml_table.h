@@ -16,21 +16,21 @@ namespace hydrodae::io {
 /// A table and how messages call it.
 struct Table {
   const toml::table& node;
-  std::string label;    ///< "[[body]] 'flap1'"
-  std::string path;     ///< "body.flap1"
-  std::string position; ///< "case.toml:12:1"
-  std::string kind;     ///< "body", "body.initial"; "" for the case itself
-  std::string type;     ///< of the entry, "" without
+  std::string label; ///< "[[body]] 'flap1'"
+  std::string path;  ///< "body.flap1"
+  FilePlace place;
+  std::string kind; ///< "body", "body.initial"; "" for the case itself
+  std::string type; ///< of the entry, "" without
 };
 
-/// Key path -> position, for messages of later checks.
-using Positions = std::map<std::string, std::string>;
+/// By key path, for messages of later checks.
+using Places = std::map<std::string, FilePlace>;
 
 /// Throws CaseError on the first key of the table that is not in `valid`; the message lists these.
 void check_keys(const Table& table, const std::vector<std::string>& valid);
 
-/// The value of `name` with the description of its key filled in, or null. Notes its position.
-const toml::node* find_key(const Table& table, Key& key, Positions& positions);
+/// The value of `name` with the description of its key filled in, or null. Notes its place.
+const toml::node* find_key(const Table& table, Key& key, Places& places);
 
 /// Throws CaseError: a required key is missing.
 [[noreturn]] void missing_key(const Table& table, std::string_view name, std::string_view unit,
@@ -38,19 +38,19 @@ const toml::node* find_key(const Table& table, Key& key, Positions& positions);
 
 /// The table under `name` of `parent`, whose members it is read into; throws if it is not a table.
 Table nested_table(const Table& parent, const toml::node& node, const std::string& name,
-                   Positions& positions);
+                   Places& places);
 
-template <class T> T read_table(const Table& table, Positions& positions);
+template <class T> T read_table(const Table& table, Places& places);
 
 /// The table `name` of `parent`, if it has one.
 template <class T>
-void read_nested(const Table& parent, const std::string& name, Positions& positions, T& out) {
+void read_nested(const Table& parent, const std::string& name, Places& places, T& out) {
   if (const toml::node* node = parent.node.get(name))
-    out = read_table<T>(nested_table(parent, *node, name, positions), positions);
+    out = read_table<T>(nested_table(parent, *node, name, places), places);
 }
 
 /// Reads and checks all keys of `table`. Throws CaseError.
-template <class T> T read_table(const Table& table, Positions& positions) {
+template <class T> T read_table(const Table& table, Places& places) {
   T value{};
   const Fields<T> fields = T::fields();
   std::vector<std::string> valid;
@@ -62,15 +62,15 @@ template <class T> T read_table(const Table& table, Positions& positions) {
   check_keys(table, valid);
 
   for (const Field<T>& field : fields) {
-    Key key{field.key, field.unit, field.range, field.choices, ""};
-    const toml::node* node = find_key(table, key, positions);
+    Key key{field.key, field.unit, field.range, field.choices};
+    const toml::node* node = find_key(table, key, places);
     if (node)
       std::visit([&](auto member) { read_value(*node, key, value.*member); }, field.member);
     else if (field.required)
       missing_key(table, field.key, field.unit, field.doc);
   }
   for_each_nested<T>(
-      [&](const char* name, auto member) { read_nested(table, name, positions, value.*member); });
+      [&](const char* name, auto member) { read_nested(table, name, places, value.*member); });
   return value;
 }
 

@@ -30,8 +30,12 @@ std::string in_unit(const Key& key) {
   return key.unit == "-" ? "" : " [" + std::string(key.unit) + "]";
 }
 
+[[noreturn]] void refuse(const Key& key, const std::string& what) {
+  throw CaseError(key.place, key.path, key.label + ": " + what);
+}
+
 [[noreturn]] void refuse(const Key& key, const std::string& expected, const toml::node& node) {
-  throw CaseError(key.where + ": expected " + expected + ", got " + found(node));
+  refuse(key, "expected " + expected + ", got " + found(node));
 }
 
 /// What `x` should have been.
@@ -55,10 +59,9 @@ double number(const toml::node& node, const Key& key) {
     refuse(key, "a number" + in_unit(key), node);
   const std::string unit = key.unit == "-" ? "" : " " + std::string(key.unit);
   if (!std::isfinite(x))
-    throw CaseError(key.where + ": must be finite, got " + number_text(x) + unit);
+    refuse(key, "must be finite, got " + number_text(x) + unit);
   if (x < key.range.min || x > key.range.max || (key.range.open_min && x == key.range.min))
-    throw CaseError(key.where + ": must be " + range_text(key.range, x) + unit + ", got " +
-                    number_text(x) + unit);
+    refuse(key, "must be " + range_text(key.range, x) + unit + ", got " + number_text(x) + unit);
   return x;
 }
 
@@ -88,7 +91,7 @@ std::string word(const toml::node& node, const Key& key) {
     refuse(key, "a string", node);
   const auto& choices = key.choices;
   if (!choices.empty() && std::find(choices.begin(), choices.end(), text->get()) == choices.end())
-    throw CaseError(key.where + ": unknown value " + in_quotes(text->get()) +
+    refuse(key, "unknown value " + in_quotes(text->get()) +
                     suggestion(text->get(), {choices.begin(), choices.end()}));
   return text->get();
 }
@@ -114,11 +117,11 @@ void read_or_word(const toml::node& node, const Key& key, const std::string& exp
 
 } // namespace
 
-std::string position(const toml::source_region& source) {
+FilePlace place_of(const toml::source_region& source) {
   const std::string name = source.path ? *source.path : "<case>";
   if (name.starts_with("--set "))
-    return name;
-  return name + ":" + std::to_string(source.begin.line) + ":" + std::to_string(source.begin.column);
+    return {name};
+  return {name, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
 }
 
 void read_value(const toml::node& node, const Key& key, double& out) {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hydrodae/core/error.h"
 #include "hydrodae/core/field.h"
 
 namespace hydrodae::io {
@@ -18,11 +19,13 @@ struct Key {
   std::string_view unit;
   Range range;
   std::vector<std::string_view> choices;
-  std::string where; ///< "case.toml:12:3: key 'mass' in [[body]] 'flap1'", starts every message
+  FilePlace place = {};
+  std::string path = {};  ///< "body.flap1.mass"
+  std::string label = {}; ///< "key 'mass' in [[body]] 'flap1'"
 };
 
-/// "case.toml:12:3", or "--set solver.rtol" for a value that was given on the command line.
-std::string position(const toml::source_region& source);
+/// In the case file, or "--set solver.rtol" for a value that was given on the command line.
+FilePlace place_of(const toml::source_region& source);
 
 /// Each throws CaseError on a wrong type, length, range or word.
 void read_value(const toml::node& node, const Key& key, double& out);

@@ -94,7 +94,7 @@ Matrix12 motion_curvature(const FreeMotion& motion, const Marker& A, const Marke
   if (motion.kind == FreeMotion::Kind::stretches) {
     const Row<double> s = stretch_row<double>(A, B, g);
     if (s.value == 0.0)
-      return Matrix12::Zero(); // it has none there
+      return Matrix12::Zero(); // no definite second derivative there
     return (distance_curvature(A, B, 1.0, g) - s.gradient * s.gradient.transpose()) / s.value;
   }
   const int j = (motion.axis + 1) % 3, k = (motion.axis + 2) % 3;

@@ -173,7 +173,7 @@ Row<S> motion_row(const FreeMotion& motion, const Marker& A, const Marker& B,
   return {atan2(s.value, c.value), (c.value * s.gradient - s.value * c.gradient) / norm2};
 }
 
-/// g = s - P theta / 2 pi with theta on the turn that the displacement s tells.
+/// g = s - P theta / 2 pi with theta on the turn that the displacement s gives.
 template <class S>
 Row<S> screw_row(const Marker& A, const Marker& B, double pitch, const Geometry<S>& g) {
   const double advance = pitch / (2.0 * pi);

@@ -1,9 +1,9 @@
 #pragma once
 /// The joint table: every joint is a row of data.
 ///
-/// Two basic scalar rows between a marker on body A (axes a_x, a_y, a_z, origin A) and one on body
-/// B (axes b_x, b_y, b_z, origin B) give the standard joints (Haug, Computer Aided Kinematics and
-/// Dynamics of Mechanical Systems, 1989, ch. 9: "dot-1" and "dot-2" constraints):
+/// The marker on body A has the axes a_x, a_y, a_z and the origin A; that on body B has b_x, b_y,
+/// b_z and B. Two basic scalar rows between them give the standard joints (Haug, Computer Aided
+/// Kinematics and Dynamics of Mechanical Systems, 1989, ch. 9: "dot-1" and "dot-2" constraints):
 ///
 ///   span(i):    a_i . (B - A) = 0   [m]     the origins do not part along a_i
 ///   perp(i,j):  a_i . b_j     = 0   [-]     two axes stay perpendicular
@@ -59,6 +59,11 @@ struct JointType {
 
   bool turns() const { return has(true); }
   bool slides() const { return has(false); }
+  bool welds() const { return rows.size() == 6; }
+  /// Does it leave a slide along one axis alone?
+  bool guides() const {
+    return rows.size() == 5 && motions.size() == 1 && motions[0].kind == FreeMotion::Kind::slides;
+  }
   /// Does it join a point of A to another of B?
   bool has_two_points() const {
     for (const FreeMotion& motion : motions)

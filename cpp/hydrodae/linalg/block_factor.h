@@ -5,7 +5,7 @@
 ///   [ G   -eD ]   S = G M^-1 G^T (+ eD) of each set of rows that have such a set in common.
 ///
 /// For a few large sets, which a general sparse matrix costs ten times as much. M must be
-/// symmetric; the solutions say so where it is not, since whoever solves with these factors looks
+/// symmetric; where it is not, the residual shows it, and whoever solves with these factors looks
 /// at the residual.
 
 #include <vector>

@@ -28,14 +28,14 @@ public:
   /// The rows of the constraints alone, those of lambda and mu.
   bool constraint_residual(double t, const VectorX& y, const VectorX& yp, VectorX& r);
 
-  /// Takes the algebraic unknowns of elements to what the rest of y tells; false where there is no
+  /// Solves for the algebraic unknowns of elements by the rest of y; false where there is no
   /// solution.
   bool solve_algebraic(double t, VectorX& y);
 
   /// dF/dy and dF/dy' into `parts`.
   void jacobian(double t, const VectorX& y, const VectorX& yp);
 
-  /// The same into `out`, on a pattern of one's own.
+  /// The same into `out`, on another pattern.
   void jacobian(double t, const VectorX& y, const VectorX& yp, const system::Pattern& own,
                 system::JacobianParts& out);
 

@@ -36,8 +36,8 @@ public:
   bool factorise(bool careful = false);
 
   /// With the pivots of before, which are not looked at: whoever calls it judges the residual of a
-  /// solution, and calls `factorise` where that is large. False where there are none, or where they
-  /// do not do.
+  /// solution, and calls `factorise` where that is large. False where they are missing or do
+  /// not fit.
   bool refactorise();
 
   /// Order of elimination, with the pivots of the last factorisation where there is one.

@@ -7,7 +7,7 @@
 ///
 /// A load of one along its joint presses the joint by N(D_kk). With f = -c N(r) the solution is
 /// unique for all loads where |c| N(D_kk) < 1: N is convex, so that its slopes along D_kk are at
-/// most N(D_kk). Above, there is none for some loads, and more than one for others (Painleve's
+/// most N(D_kk). Above, it is missing for some loads, and not unique for others (Painleve's
 /// paradox; Brogliato, Nonsmooth Mechanics, 2016, ch. 5).
 ///
 /// In an impact phi and r are impulses, whose friction, with the coefficient mu of slip, is
@@ -42,7 +42,7 @@ struct SaddlePoint::Pressed {
 
   explicit Pressed(const system::Regime& s) : ws(s) {}
 
-  /// Of all laws that feel the reaction of their joint; null: there is none.
+  /// Of all laws that feel the reaction of their joint; null if absent.
   static std::unique_ptr<Pressed> find(const system::Regime& s);
 
   const system::ElementList& list(const system::Regime& s, std::size_t k) const {

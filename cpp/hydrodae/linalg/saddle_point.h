@@ -37,7 +37,7 @@ public:
   bool linearise(double t, VectorX& y);
 
   /// Friction pressed by its joint that leaves no accelerations or more than one at the last call
-  /// of `accelerations` (Painleve's paradox), in words; empty: there is none.
+  /// of `accelerations` (Painleve's paradox), in words; empty if absent.
   const std::string& jam() const { return jam_; }
 
   /// What the last `accelerations` left of the equations, relative to the loads [-].

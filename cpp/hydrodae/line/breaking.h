@@ -19,7 +19,7 @@ public:
 
   /// @param whole   lists of one law each, of one shape
   /// @param bears   of each
-  /// @param breaks  else all that is exceeded is told only
+  /// @param breaks  else what is exceeded is only reported
   Breaking(std::vector<std::shared_ptr<const element::Elements>> whole, std::vector<Bears> bears,
            bool breaks);
 

@@ -14,8 +14,8 @@
 namespace hydrodae::line {
 
 /// Quasi-static elastic mooring line between an anchor (end A) and a fairlead (end B), of parts
-/// with clump weights or buoys between them, on a flat seabed at the height of the anchor or free
-/// of it: at each instant as if at rest (math/catenary.h). No inertia, no drag.
+/// with clump weights or buoys between them. It lies on a flat seabed at the height of the anchor
+/// or is free of it, at each instant as if at rest (math/catenary.h). No inertia, no drag.
 ///
 ///   force on B = -(H e + V z),   e: horizontal, from A to B
 struct CatenaryLine {

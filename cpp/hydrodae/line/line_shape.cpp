@@ -52,7 +52,7 @@ void straight(const LineModel& m, const Vector3& a, const Vector3& b, VectorX& p
   }
 }
 
-/// By the catenary; false where there is none.
+/// By the catenary; false where no catenary fits.
 bool hang(const LineModel& m, const Vector3& a, const Vector3& b, VectorX& places) {
   const bool turned = b[2] < a[2];
   const Vector3 &low = turned ? b : a, &high = turned ? a : b;
@@ -96,7 +96,7 @@ void drop(const LineModel& m, const Vector3& a, const Vector3& towards, VectorX&
 }
 
 /// Nodes that lie on one another, on the seabed beside a slack line, share the way to the next one
-/// that does not; where there is none, they go to and fro across it.
+/// that does not; without such a node, they go to and fro across it.
 void spread(const LineModel& m, const Vector3& a, const Vector3& b, VectorX& places) {
   constexpr double together = 1e-3, aside = 0.1; // of a segment
   const int n = m.n_unknown(), last = m.free_end ? n : n + 1;

@@ -181,7 +181,7 @@ bool descend(Rest& rest, VectorX& places, double longest, double start, double e
   return false;
 }
 
-/// Sizes that tell rest.
+/// Sizes below which a line is at rest.
 struct RestScales {
   double g = 1.0, shortest = HUGE_VAL, whole = 0.0, weight = 0.0, stiffest = 0.0, floor = 0.0;
 

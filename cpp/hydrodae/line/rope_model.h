@@ -129,7 +129,8 @@ template <class S> void RopeModel::pull(double t, const double* held, RopeState<
 }
 
 /// A force at a point of contact, on the two points that stand for a sheave: at its centre C and at
-/// C + R a, with the moment R a x F of the force about the centre. It has none about the axis.
+/// C + R a, with the moment R a x F of the force about the centre. Its moment about the axis is
+/// zero.
 template <class S>
 void put_on_sheave(const RopeNode<S>& node, const Vec3<S>& rho, const Vec3<S>& force, S* at_centre,
                    S* at_helper) {

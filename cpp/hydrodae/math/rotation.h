@@ -41,8 +41,8 @@ template <class S> Mat3<S> rotation_about_axis(int axis, const S& angle) {
   return r;
 }
 
-/// The 4x3 matrix L(p) of p o (0, a) = L(p) a, so that p' = 1/2 L(p) w and, since L^T L = |p|^2 I
-/// and L^T p = 0, delta phi = 2 L(p)^T delta p / |p|^2.
+/// The 4x3 matrix L(p) of p o (0, a) = L(p) a, so that p' = 1/2 L(p) w. Since L^T L = |p|^2 I and
+/// L^T p = 0, it also gives delta phi = 2 L(p)^T delta p / |p|^2.
 template <class S> Eigen::Matrix<S, 4, 3> quaternion_rate_matrix(const Vec4<S>& p) {
   Eigen::Matrix<S, 4, 3> l;
   l << -p[1], -p[2], -p[3], //

@@ -88,7 +88,7 @@ private:
   std::vector<Vector6> totals_; ///< per body: inertia minus all loads, tangent axes
   VectorX rate_, momentum_, memory_;
   std::vector<double> element_values_; ///< of one list: energies and declared channels, or loads
-  const element::Elements* in_waves_ = nullptr; ///< that tell the elevation
+  const element::Elements* in_waves_ = nullptr; ///< that show the elevation
   std::size_t next_load_ = 0;
   double* own_ = nullptr;             ///< next of Observation::elements
   std::vector<int> redundant_joints_; ///< joints with rows that follow from others

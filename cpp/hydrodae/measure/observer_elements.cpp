@@ -9,7 +9,7 @@ using namespace system;
 
 namespace {
 
-/// Load by which dry friction that sticks holds its joint; its law has none then [N or N m].
+/// Load by which dry friction that sticks holds its joint; its law gives zero then [N or N m].
 double holding_load(const Regime& s, const ElementList& list, std::size_t law, const double* y) {
   for (const SwitchData& friction : s.switches)
     if (s.mode(friction) == SwitchData::State::stick &&

@@ -107,6 +107,9 @@ void check(const Scene& scene) {
     check_marker(scene, marker);
   check_forces(scene);
   check_morison(scene);
+  for (const PoseTable& table : scene.pose_tables)
+    check_reference({"pose_table", table.name}, "body", table.body, names_of(scene.bodies), "body");
+  check_claims(scene);
   for (const Controller& controller : scene.controllers)
     check_controller(scene, controller);
   check_solver(scene);

@@ -13,6 +13,8 @@ void check_constraint(const Scene& scene, const Constraint& constraint);
 void check_marker(const Scene& scene, const Marker& marker);
 void check_forces(const Scene& scene);
 void check_morison(const Scene& scene);
+/// Refuses what models an effect of the water on a body a second time (claims.h).
+void check_claims(const Scene& scene);
 void check_controller(const Scene& scene, const Controller& controller);
 void check_solver(const Scene& scene);
 void check_sea(const Scene& scene);

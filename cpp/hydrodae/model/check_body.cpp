@@ -70,10 +70,6 @@ void check_volume(const Scene& scene, const Body& body) {
     refuse(body, "center_of_buoyancy", "a centre of buoyancy needs a 'volume'");
   if (body.volume == 0.0)
     return;
-  if (body.hydro)
-    refuse(
-        body, "volume",
-        "the buoyancy of this body comes from the database, by 'hydro'; 'volume' is for dry ones");
   if (water(scene).density <= 0.0)
     refuse(body, "volume",
            "buoyancy needs the density of the water: a database, or environment.water_density");
@@ -82,9 +78,9 @@ void check_volume(const Scene& scene, const Body& body) {
            "a volume under water has its centre below z = 0, this one at " + number_text(z) + " m");
 }
 
-/// What a mesh needs, and what would count its loads twice.
+/// What a mesh needs.
 void check_mesh(const Scene& scene, const Body& body) {
-  const bool statics = body.hydrostatics == "mesh", waves = body.froude_krylov == "mesh";
+  const bool statics = body.hydrostatics_by_mesh(), waves = body.waves_by_mesh();
   if (!body.mesh && !body.mesh_origin.isZero(0.0))
     refuse(body, "mesh_origin", "this is the place of a 'mesh': give that file, or leave this out");
   if (body.mesh && !statics)
@@ -97,8 +93,6 @@ void check_mesh(const Scene& scene, const Body& body) {
            "hydrostatics = \"mesh\" too");
   if (!statics)
     return;
-  if (body.volume > 0.0)
-    refuse(body, "volume", "the buoyancy of this body comes from its mesh; leave out 'volume'");
   if (water(scene).density <= 0.0)
     refuse(body, "hydrostatics",
            "a mesh needs the density of the water: a database, or environment.water_density");

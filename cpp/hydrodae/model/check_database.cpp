@@ -38,7 +38,7 @@ void check_wet_body(const hydro::Database& database, const Body& body) {
                      suggestion(*body.hydro, names));
   }
   check_reference_point(body, *entry);
-  if (moves(body) && body.hydrostatics == "linear" && !entry->hydrostatics)
+  if (moves(body) && !body.hydrostatics_by_mesh() && !entry->hydrostatics)
     refuse(body, database.path + " holds no hydrostatics of " + in_quotes(*body.hydro) +
                      ", and a body that moves needs them");
 }
@@ -90,7 +90,7 @@ void check_kernel(const Scene& scene) {
   const std::string advice = "; make it with: hydrodae hdb kernel " + database.path + " " +
                              joined(moving_coordinates(scene), ",");
   if (!database.kernel)
-    throw ModelError("hydro.radiation",
+    throw ModelError("hydro.database",
                      database.path + " holds no radiation kernel for the convolution" + advice);
   std::vector<std::string> missing;
   for (const std::string& label : moving_coordinates(scene)) {
@@ -99,9 +99,9 @@ void check_kernel(const Scene& scene) {
       missing.push_back(label);
   }
   if (!missing.empty())
-    throw ModelError("hydro.radiation", "the radiation kernel of " + database.path +
-                                            " lacks coordinates that move: " + joined(missing) +
-                                            advice);
+    throw ModelError("hydro.database", "the radiation kernel of " + database.path +
+                                           " lacks coordinates that move: " + joined(missing) +
+                                           advice);
   const double least = 7.0 * database.kernel->step, most = database.kernel->length();
   const double length = hydro.memory_length.value_or(most);
   if (length > most * (1.0 + 1e-9) || length < least)

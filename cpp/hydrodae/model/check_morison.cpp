@@ -10,7 +10,7 @@ using water::Morison;
 void refuse_keys(const Scene& scene, const Entry& entry, const std::string& shape,
                  const std::vector<std::string>& keys) {
   for (const std::string& key : keys)
-    if (scene.positions.contains("morison." + entry.name + "." + key))
+    if (scene.places.contains("morison." + entry.name + "." + key))
       refuse(entry, key, "a " + shape + " element has no " + in_quotes(key));
 }
 
@@ -48,8 +48,7 @@ void check_morison(const Scene& scene) {
     for (const std::string& force : forces)
       if (force == m.name)
         refuse(entry, "name", "a [[force]] has this name too");
-    if (m.drag_coefficient == 0.0 && m.drag_axial == 0.0 && !m.added_mass_coefficient &&
-        m.added_mass_axial == 0.0)
+    if (m.drag_coefficient == 0.0 && m.drag_axial == 0.0 && !m.has_inertia())
       refuse(entry, "",
              "it has neither drag nor inertia: give drag_coefficient, drag_axial, "
              "added_mass_coefficient or added_mass_axial");

@@ -111,13 +111,10 @@ Scene scene_without_tables(const Scene& scene) {
 
 void check_pose_table(const Scene& scene, const PoseTable& table) {
   check_values(table);
-  check_reference({"pose_table", table.name}, "body", table.body, names_of(scene.bodies), "body");
   const Body* body = find_named(scene.bodies, table.body);
   if (!scene.hydro || !body->hydro)
     refuse(table, "body",
            "body " + in_quotes(table.body) + " has no 'hydro', so that no database loads it");
-  if (&table != pose_table(scene, table.body))
-    refuse(table, "body", "body " + in_quotes(table.body) + " has another pose table already");
   if (scene.hydro->radiation == "convolution")
     refuse(table, "databases",
            "radiation = \"convolution\" has no tables over poses; use \"exponential\", "

@@ -9,7 +9,7 @@ void check_sea(const Scene& scene) {
   const bool slender =
       !scene.morison.empty() || !std::get<std::vector<line::Line>>(scene.forces).empty();
   const bool meshed = std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                                  [](const Body& body) { return body.froude_krylov == "mesh"; });
+                                  [](const Body& body) { return body.waves_by_mesh(); });
   if (!scene.waves.empty() && !scene.hydro && !slender && !meshed)
     throw ModelError("wave." + scene.waves.front()->name,
                      "waves need a hydrodynamic database, Morison elements, lines or a body with "

@@ -25,7 +25,7 @@ void check_count(const Scene& scene, const std::string& key, double step, double
   const std::string step_text = key + " = " + number_text(step) + " s",
                     end_text = "solver.end_time = " + number_text(end) + " s";
   // Where only one of the two is written down, that one is to blame.
-  const bool given = scene.positions.contains(key);
+  const bool given = scene.places.contains(key);
   throw ModelError(given ? key : "solver.end_time",
                    (given ? step_text + " divides the run to " + end_text
                           : end_text + " is divided by " + step_text + " (the default)") +
@@ -57,28 +57,28 @@ std::string in_words(const std::vector<int>& orders) {
 void check_order(const SolverOptions& o) {
   if (o.order == 0)
     return;
-  if (o.method == "auto")
+  const MethodTraits* method = find_method(o.method);
+  if (!method)
     refuse_solver("order", "\"auto\" takes methods at orders of their own; name the method whose "
                            "order it is, such as method = \"radau\"");
-  const MethodTraits& method = method_traits(o.method);
-  if (method.orders.empty())
-    refuse_solver("order", std::string(method.one_order));
-  if (std::find(method.orders.begin(), method.orders.end(), o.order) == method.orders.end())
-    refuse_solver("order", o.method + " has order " + in_words(method.orders));
+  if (method->orders.empty())
+    refuse_solver("order", std::string(method->one_order));
+  if (std::find(method->orders.begin(), method->orders.end(), o.order) == method->orders.end())
+    refuse_solver("order", o.method + " has order " + in_words(method->orders));
 }
 
 void check_step(const SolverOptions& o) {
-  if (o.method == "auto") {
+  const MethodTraits* method = find_method(o.method);
+  if (!method) {
     if (o.step > 0.0)
       refuse_solver("step",
                     "\"auto\" takes methods that choose their steps by rtol; for a fixed step "
                     "name the method, such as method = \"generalized_alpha\"; "
                     "solver.max_step limits them");
   } else {
-    const MethodTraits& method = method_traits(o.method);
-    if (!method.adapts && o.step == 0.0)
+    if (!method->adapts && o.step == 0.0)
       refuse_solver("step", o.method + " has a fixed step: give solver.step [s]");
-    if (!method.fixes && o.step > 0.0)
+    if (!method->fixes && o.step > 0.0)
       refuse_solver("step", o.method + " chooses its steps by rtol; solver.max_step limits them");
   }
   if (o.step > 0.0 && o.max_step > 0.0)
@@ -89,22 +89,24 @@ void check_step(const SolverOptions& o) {
 
 void check_formulation(const SolverOptions& o) {
   const bool stabilised = o.formulation == "stabilised";
-  if (!stabilised && o.method == "auto")
+  const MethodTraits* method = find_method(o.method);
+  if (!stabilised && !method)
     refuse_solver("formulation", "\"auto\" keeps to \"stabilised\", as all its methods do; for "
                                  "comparisons name the method, \"ida\" or \"radau\"");
-  if (!stabilised && !method_traits(o.method).drifting)
+  if (!stabilised && !method->drifting)
     refuse_solver("formulation", o.method + " has its own: only \"stabilised\" here");
   if (o.baumgarte_time > 0.0 && o.formulation != "index_1")
     refuse_solver("baumgarte_time", "belongs to formulation \"index_1\"");
   if (o.formulation != "index_3" || o.force)
     return;
-  if (const std::string_view why = method_traits(o.method).fails_index_3; !why.empty())
+  if (const std::string_view why = method->fails_index_3; !why.empty())
     refuse_solver("formulation",
                   std::string(why) + "; solver.force (--force) runs it all the same");
 }
 
 void check_coordinates(const SolverOptions& o) {
-  if (o.coordinates == "reduced" && o.method != "auto" && !method_traits(o.method).reduces)
+  const MethodTraits* method = find_method(o.method);
+  if (o.coordinates == "reduced" && method && !method->reduces)
     refuse_solver("coordinates", "\"reduced\" goes with method = \"explicit_rk\" only; " +
                                      o.method + " takes coordinates = \"bodies\"");
 }
@@ -118,10 +120,10 @@ void check_solver(const Scene& scene) {
   check_formulation(o);
   check_coordinates(o);
   check_counts(scene);
-  const bool named = o.method != "auto";
-  if (o.max_order != 5 && !(named && method_traits(o.method).limits_order))
+  const MethodTraits* method = find_method(o.method);
+  if (o.max_order != 5 && !(method && method->limits_order))
     refuse_solver("max_order", "belongs to ida; " +
-                                   (named ? o.method + " takes solver.order" : "name the method"));
+                                   (method ? o.method + " takes solver.order" : "name the method"));
 }
 
 } // namespace hydrodae::model

@@ -25,7 +25,7 @@ namespace {
 
 /// Displaced in the reference pose [m3], by what gives the body its buoyancy; nothing if unknown.
 std::optional<double> displaced_volume(const Scene& scene, const Body& body) {
-  if (body.hull && body.hydrostatics == "mesh")
+  if (body.hull && body.hydrostatics_by_mesh())
     return hull::floating_in_reference_pose(*body.hull, body.center_of_gravity).volume;
   const hydro::DatabaseBody* entry =
       body.hydro && scene.database ? hydro::find_body(*scene.database, *body.hydro) : nullptr;

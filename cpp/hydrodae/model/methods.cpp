@@ -66,10 +66,16 @@ const std::vector<MethodTraits>& methods() {
   return all;
 }
 
-const MethodTraits& method_traits(std::string_view name) {
+const MethodTraits* find_method(std::string_view name) {
   for (const MethodTraits& m : methods())
     if (m.name == name)
-      return m;
+      return &m;
+  return nullptr;
+}
+
+const MethodTraits& method_traits(std::string_view name) {
+  if (const MethodTraits* found = find_method(name))
+    return *found;
   throw Error("no method " + in_quotes(std::string(name)));
 }
 

@@ -10,8 +10,8 @@ namespace hydrodae::model {
 
 struct MethodTraits {
   std::string_view name;
-  std::vector<int> orders;        ///< that solver.order may name; empty: it has no choice
-  std::string_view one_order;     ///< why it has none, for messages
+  std::vector<int> orders;        ///< that solver.order may name; empty: no choice
+  std::string_view one_order;     ///< why there is no choice, for messages
   bool adapts = true;             ///< may it choose its steps by rtol?
   bool fixes = true;              ///< may it take fixed steps?
   bool drifting = false;          ///< does it take formulations that let the constraints drift?
@@ -31,7 +31,10 @@ struct MethodTraits {
 /// All methods, those that choose their steps first, by how far the stability map trusts them.
 const std::vector<MethodTraits>& methods();
 
-/// Of a method by name; "auto" has none.
+/// Of a method by name; null where the scene chooses it ("auto").
+const MethodTraits* find_method(std::string_view name);
+
+/// Of a method by name; "auto" is not one.
 const MethodTraits& method_traits(std::string_view name);
 
 /// "auto" and the names of all.

@@ -138,13 +138,13 @@ const hydro::MemoryFit* memory_fit(const Scene& scene) {
   if (const hydro::MemoryFit* fit = hydro::smallest_covering_fit(*scene.database, moving))
     return fit;
   if (fits.empty())
-    throw ModelError("hydro.radiation", scene.database->path + " holds no exponential fit" +
-                                            remedy + ", or set radiation = \"none\"");
+    throw ModelError("hydro.database", scene.database->path + " holds no exponential fit" + remedy +
+                                           ", or set radiation = \"none\"");
   std::string per_fit;
   for (const hydro::MemoryFit& f : fits)
     per_fit += "; " + in_quotes(f.name) + " lacks " + joined(hydro::missing_inputs(f, moving));
-  throw ModelError("hydro.radiation", "no exponential fit in " + scene.database->path +
-                                          " covers all coordinates that move" + per_fit + remedy);
+  throw ModelError("hydro.database", "no exponential fit in " + scene.database->path +
+                                         " covers all coordinates that move" + per_fit + remedy);
 }
 
 } // namespace hydrodae::model

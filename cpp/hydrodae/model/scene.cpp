@@ -55,18 +55,18 @@ Water water(const Scene& scene) {
           e.gravity.value_or(Water{}.gravity)};
 }
 
-std::string located(const Scene& scene, const ModelError& error) {
+CaseError located(const Scene& scene, const ModelError& error) {
   std::string key = error.key;
   while (true) {
-    const auto found = scene.positions.find(key);
-    if (found != scene.positions.end())
-      return found->second + ": " + error.what();
+    const auto found = scene.places.find(key);
+    if (found != scene.places.end())
+      return {found->second, error.key, error.what()};
     const std::size_t dot = key.rfind('.');
     if (dot == std::string::npos)
       break;
     key.resize(dot);
   }
-  return (scene.path.empty() ? "" : scene.path + ": ") + error.what();
+  return {{scene.path}, error.key, error.what()};
 }
 
 } // namespace hydrodae::model

@@ -142,6 +142,8 @@ struct Body {
   std::optional<std::string> mesh;
   Vector3 mesh_origin = Vector3::Zero();
   std::string hydrostatics = "linear", froude_krylov = "linear";
+  bool hydrostatics_by_mesh() const { return hydrostatics == "mesh"; }
+  bool waves_by_mesh() const { return froude_krylov == "mesh"; }
   std::shared_ptr<const hull::Mesh> hull; ///< read from `mesh`, about the centre of gravity
   BodyInitial initial;
 
@@ -336,8 +338,8 @@ struct Scene {
 
   std::string text; ///< the case file as read, with the overrides that were applied noted below
   std::string path; ///< "" when it was parsed from a string
-  std::vector<std::string> overrides;           ///< "key = value" as given on the command line
-  std::map<std::string, std::string> positions; ///< key path -> "file:line:column", for messages
+  std::vector<std::string> overrides;      ///< "key = value" as given on the command line
+  std::map<std::string, FilePlace> places; ///< of all keys that are given, by their path
   std::vector<Controller> controllers;
   std::vector<sea::Gauge> gauges;
 };
@@ -357,8 +359,7 @@ Water water(const Scene& scene);
 /// The scene as a short tree for people.
 std::string summary(const Scene& scene);
 
-/// What a ModelError says, with the place in the case file in front where it is known:
-/// "case.toml:12:3: joint 'hinge1': ...".
-std::string located(const Scene& scene, const ModelError& error);
+/// A ModelError with the place of its key in the case file, or of the entry that should have it.
+CaseError located(const Scene& scene, const ModelError& error);
 
 } // namespace hydrodae::model

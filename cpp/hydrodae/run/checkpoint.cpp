@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char *of_state = "state", *of_output = "output";
 
-/// SHA-256 of all numbers: damage is told before a run goes on from it.
+/// SHA-256 of all numbers: damage is reported before a run goes on from it.
 std::string digest_of_numbers(const Checkpoint& checkpoint) {
   State output;
   output.memory = checkpoint.output;

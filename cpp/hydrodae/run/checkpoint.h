@@ -21,13 +21,13 @@ std::string checkpoint_name(const std::string& results);
 void write_checkpoint(const std::string& results, const model::Scene& scene,
                       const Checkpoint& checkpoint);
 
-/// Throws CaseError where there is none, or it is of another case, database or version.
+/// Throws CaseError where it is missing, or it is of another case, database or version.
 Checkpoint read_checkpoint(const std::string& results, const model::Scene& scene);
 
 /// Throws CaseError when another kind of file has the name of the checkpoint.
 void require_checkpoint_place(const std::string& results);
 
-/// Does nothing where there is none.
+/// Does nothing where it is missing.
 void remove_checkpoint(const std::string& results);
 
 } // namespace hydrodae::run

@@ -19,7 +19,7 @@ namespace hydrodae::run {
 
 /// Column of one number of a row of channels: "joints/slide/displacement", or one component of a
 /// vector, "bodies/float/velocity.z" (of a quaternion w, x, y, z). Throws CaseError, with the
-/// nearest name, where there is none.
+/// nearest name, for an unknown one.
 std::size_t find_column(const std::vector<Channel>& channels, const std::string& name);
 
 /// What each controller holds: columns of the results, which other controllers may read.
@@ -27,7 +27,7 @@ std::vector<Channel> held_channels(const model::Scene& scene, const std::vector<
 
 /// What a controller reads and writes, by the names that it has and in the units that it is given
 /// there. Throws ModelError with the nearest name where there is no such channel or input, and
-/// where a unit is none of it or not what the law takes.
+/// where a unit does not fit it or is not what the law takes.
 control::Terminals find_terminals(const model::Controller& controller,
                                   const std::vector<Channel>& channels, std::vector<Input>& inputs);
 

@@ -39,7 +39,7 @@ public:
   virtual void remember(Archive&) {}
 };
 
-/// Tells whether a step was at or next to a singular pose of a closed loop, for the guards that
+/// Decides whether a step was at or next to a singular pose of a closed loop, for the guards that
 /// allow less there. It watches nothing in scenes without loops.
 class PoseWatch {
 public:

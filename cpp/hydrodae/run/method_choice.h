@@ -18,7 +18,7 @@ struct SceneTraits {
   double motion_rate = 0.0;  ///< at which the bodies move there [1/s]
   double end_time = 0.0;     ///< [s]
   bool damped = false;       ///< energy may be taken out of the motion of every group of bodies
-  std::string costly;        ///< what is dear to evaluate, in words; empty: nothing
+  std::string costly;        ///< what is expensive to evaluate, in words; empty: nothing
 };
 
 /// Methods in the order in which they are tried, and why the first is the first.
@@ -27,7 +27,7 @@ struct MethodOrder {
   std::string reason;
 };
 
-/// The choice, by what the stability map, the attack suite and the charts of tests/ tell. radau
+/// The choice, by what the stability map, the attack suite and the charts of tests/ show. radau
 /// takes every scene there that any method takes; it is not always the cheapest:
 ///
 /// - Where nothing is stiff, explicit_rk has the cheapest digits, up to four times as cheap; after
@@ -65,11 +65,11 @@ public:
   bool more() const { return at_ + 1 < order_.methods.size(); }
 
   /// Goes on with the next method, as the one at work has met `error`. Throws SolverError where
-  /// none is left, which tells of all that were tried.
+  /// none is left, with all that were tried.
   void next(const SolverError& error);
 
   /// Takes an accepted step of the length h [s] at the rate of the motion [1/s].
-  /// @param own the method chose its end; else it tells nothing
+  /// @param own the method chose its end; else h is no evidence
   void accept(double h, double rate, bool own);
 
   /// Were so many of the last steps of explicit_rk so short against the motion that it must be

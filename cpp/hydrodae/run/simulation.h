@@ -31,9 +31,10 @@ namespace hydrodae::run {
 ///
 /// `state` and `restore` are exact: what follows depends on the State alone, bit for bit, whether
 /// the run that gave it goes on, goes back to it, or another one of the same scene takes it over.
-/// To that end `state` makes the method start anew from it in the run itself, too: one-step methods
-/// go on with their step, order and polynomial and factorise their matrices again; ida begins at
-/// order 1. So a run whose state was taken differs from one left alone, within the tolerance.
+/// To that end `state` makes the method start again from it in the run itself, too: one-step
+/// methods go on with their step, order and polynomial and factorise their matrices again; ida
+/// begins at order 1. So a run whose state was taken differs from one left alone, within the
+/// tolerance.
 ///
 /// Controllers of the scene are sampled when the run goes on from a sampling instant: what is read
 /// there before is what holds up to it.
@@ -60,7 +61,7 @@ public:
   /// The guards' last look, at the end of the run. Throws SolverError.
   void finish();
 
-  /// Tells controllers that are other programs that the run ends here; with the message of the
+  /// Informs controllers that are other programs that the run ends here; with the message of the
   /// error that ended it, if any.
   void close(const std::string& error = "");
 
@@ -84,17 +85,17 @@ public:
   void look(double t, VectorX& y);
 
   /// The values of a channel now: one, three or four; one of a component, "velocity.z". Changes
-  /// nothing. Throws CaseError, with the nearest name, where there is none.
+  /// nothing. Throws CaseError, with the nearest name, for an unknown one.
   std::span<const double> read(const std::string& channel);
 
   /// What may be written, by name; see Input.
   const std::vector<Input>& inputs() const { return inputs_; }
 
-  /// Holds an input at a value from now on: accelerations jump, and the method starts anew. Throws
+  /// Holds an input at a value from now on: accelerations jump, and the method starts again. Throws
   /// CaseError for an unknown name or a value that it cannot have.
   void write(const std::string& input, double value);
 
-  // What a results file tells of a run.
+  // What a results file states of a run.
   const model::Scene& scene() const { return scene_; }
   const system::System& system() const { return system_; }
   const system::Regime& regime() const { return regime_; }

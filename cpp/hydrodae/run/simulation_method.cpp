@@ -20,9 +20,10 @@ constexpr double step_edge = 0.02;
 
 /// By the start, where the method is "auto".
 void Simulation::choose_method() {
-  if (options_.method == "auto" && options_.coordinates == "reduced")
+  const bool chosen_here = !model::find_method(options_.method);
+  if (chosen_here && options_.coordinates == "reduced")
     methods_ = MethodChoice(MethodOrder{{"explicit_rk"}, "no other has reduced coordinates"});
-  else if (options_.method == "auto")
+  else if (chosen_here)
     methods_ = MethodChoice(order_methods(find_traits(regime_, pattern_, options_, y_, yp_)));
   use_method();
 }
@@ -122,10 +123,10 @@ double Simulation::find_bound() {
   return std::min({limit.time, event_near_, carried});
 }
 
-/// Is a time in the middle of the last step, where the polynomial through the stages of radau, or
-/// what fixed steps have, is of a lower order than the end, so that each event would leave its
-/// error? A load that begins with the event, as of a rope that is caught and parts, has changed the
-/// stages, too.
+/// Is a time in the middle of the last step, where the polynomial is of a lower order than the end,
+/// so that each event would leave its error? It is that through the stages of radau, or what fixed
+/// steps have. A load that begins with the event, as of a rope that is caught and parts, has
+/// changed the stages, too.
 bool Simulation::inside_of_step(double t) const {
   const double least = step_edge * (t_ - step_start_);
   return approaches_events_ && t - step_start_ > least && t_ - t > least;
@@ -141,7 +142,7 @@ void Simulation::approach(double event) {
   restart_integrator();
 }
 
-/// Steps that end where something made them end tell nothing of the method.
+/// Steps that end where something made them end do not count as evidence on the method.
 void Simulation::watch_steps(bool event, double end) {
   if (!methods_.more())
     return;

@@ -25,7 +25,7 @@ struct State {
   Memory numbers() const;
   static State from_numbers(Memory numbers, std::string scene);
 
-  /// The same as bytes, of this kind of machine. `from_bytes` throws Error where they are none.
+  /// The same as bytes, of this kind of machine. `from_bytes` throws Error where they are no state.
   std::string bytes() const;
   static State from_bytes(const std::string& bytes);
 };

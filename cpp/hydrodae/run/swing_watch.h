@@ -1,6 +1,6 @@
 #pragma once
-/// Tells a sampled loop that feeds itself: from some period or delay on, a held load puts energy in
-/// (docs/control.md), and the swings of what the controller holds grow by the same factor on and
+/// Detects a sampled loop that feeds itself: from some period or delay on, a held load puts energy
+/// in (docs/control.md), and the swings of what the controller holds grow by the same factor on and
 /// on.
 
 #include <algorithm>

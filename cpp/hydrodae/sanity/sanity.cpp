@@ -52,13 +52,16 @@ double size_of(const model::Scene& scene, const system::System& s, std::size_t i
 /// Distance of a marker from the centre of gravity of its body: of its axis where it may stand
 /// anywhere along it.
 double distance(const system::JointData& j, const joint::Marker& marker) {
-  const auto slides = [](const joint::FreeMotion& m) {
-    return m.kind == joint::FreeMotion::Kind::slides && m.axis == joint::Z;
+  const auto slides = [&](int axis) {
+    return std::any_of(j.type->motions.begin(), j.type->motions.end(),
+                       [&](const joint::FreeMotion& m) {
+                         return m.kind == joint::FreeMotion::Kind::slides && m.axis == axis;
+                       });
   };
   Vector3 away = marker.point;
-  if (j.type->name == "planar") // a point anywhere in the plane
+  if (slides(joint::X) && slides(joint::Y)) // a point anywhere in the plane
     away = marker.axes.col(joint::Z) * marker.axes.col(joint::Z).dot(away);
-  else if (std::any_of(j.type->motions.begin(), j.type->motions.end(), slides))
+  else if (slides(joint::Z))
     away -= marker.axes.col(joint::Z) * marker.axes.col(joint::Z).dot(away);
   return away.norm();
 }
@@ -142,7 +145,7 @@ VectorX allowed_velocities(const system::Regime& s, const VectorX& y, std::mt199
   return u;
 }
 
-/// A pose beside the start that keeps the constraints, to tell a lock from a dead point.
+/// A pose beside the start that keeps the constraints, to distinguish a lock from a dead point.
 VectorX pose_beside(const system::Regime& s, std::mt19937& random) {
   const VectorX start = system::initial_state(s), scale = build::displacement_scale(s);
   VectorX y = start, step(s.n_u);
@@ -169,7 +172,7 @@ void judge_forces(const system::Regime& s, std::vector<Finding>& out) {
     const VectorX u = allowed_velocities(s, y, random);
     system::Workspace<double> ws(s);
     system::unpack<double>(s, y.data(), rest.data(), ws.bodies);
-    // What one unit of the scales gives tells which rates count.
+    // What one unit of the scales gives shows which rates count.
     for (std::size_t k = 0; k < ports.size(); ++k) {
       const double rate = motion_rate(s, ws, ports[k]->motion, u.cwiseProduct(scale)).first;
       const double most = motion_rate(s, ws, ports[k]->motion, scale).second;

@@ -39,9 +39,7 @@ bool feels_heave(const joint::Vector12& gradient, int side) {
 }
 
 /// Do these laws load a meshed body by the pressure of still water?
-bool is_meshed(const element::Elements& laws) {
-  return laws.shape.in_water() && (laws.type == "hydrostatic" || laws.type == "pressure");
-}
+bool is_meshed(const element::Elements& laws) { return laws.shape.in_water() && laws.buoyant; }
 
 /// Laws on meshes in still water, their bodies in the reference pose.
 std::vector<element::AtRest> in_reference_pose(const system::System& s,
@@ -124,10 +122,9 @@ std::vector<Link> vertical_links(const system::System& s, const system::Workspac
         std::find_if(s.switches.begin(), s.switches.end(), [&](const system::SwitchData& element) {
           return static_cast<std::size_t>(element.coupler) == k;
         });
-    const bool rope =
-        stop != s.switches.end() && !std::isfinite(stop->lower) &&
-        s.joints[static_cast<std::size_t>(s.motions[static_cast<std::size_t>(stop->motion)].joint)]
-                .type->name == "one-sided distance";
+    const bool rope = stop != s.switches.end() && !std::isfinite(stop->lower) &&
+                      s.motions[static_cast<std::size_t>(stop->motion)].motion.kind ==
+                          joint::FreeMotion::Kind::stretches;
     if (stop == s.switches.end() || rope) // an open stop carries nothing
       for (const system::CouplerData::Term& term : s.couplers[k].terms)
         add_motion(term.motion);
@@ -296,13 +293,13 @@ std::vector<FloatingGroup> find_groups(const system::System& s, const system::Wo
                     if (const int body = port.points[i].body; body >= 0) {
                       const auto z = static_cast<Index>(3 * i + 2);
                       FloatingGroup& group = group_of(body);
-                      (list.laws->type == "buoyancy" ? group.buoyancy : group.load) += rest.load[z];
+                      (list.laws->buoyant ? group.buoyancy : group.load) += rest.load[z];
                       group.mooring += rest.stiffness(z, z);
                     }
                   if (port.body < 0)
                     return;
                   FloatingGroup& group = group_of(port.body);
-                  const bool water = is_meshed(*list.laws) || list.laws->type == "hydrostatic";
+                  const bool water = list.laws->buoyant;
                   group.wet = group.wet || water;
                   (water ? group.buoyancy : group.load) += rest.load[2];
                   (water ? group.stiffness : group.mooring) += rest.stiffness(2, 2);

@@ -14,10 +14,10 @@ namespace hydrodae::sanity {
 
 namespace {
 
-/// Of the largest force over the headings: told, and serious.
+/// Of the largest force over the headings: reported, and serious.
 constexpr double doubt_worth_saying = 0.02, doubt_too_large = 0.2;
 constexpr double force_unseen = 0.02;         ///< of the largest of its unit: noise
-constexpr double headings_apart = 36.0;       ///< steps of tables that tell nothing are named [deg]
+constexpr double headings_apart = 36.0;       ///< steps of tables without a check are named [deg]
 constexpr std::size_t components_judged = 64; ///< of a sea, evenly picked
 constexpr double off_the_table = 1e-6;        ///< what the others count at a heading of the table
 

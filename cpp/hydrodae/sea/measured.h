@@ -5,7 +5,7 @@ namespace hydrodae::sea {
 
 /// A measured elevation over time at a point: the harmonics w_n = 2 pi n / (N dt) of the record
 /// within `frequency_range`, or within what is covered. The mean (with the weights of the faded
-/// ends) is taken off, and both ends fade over `taper` (the polynomial of the ramp), since the
+/// ends) is taken off, and both ends fade over `taper` (the polynomial of the ramp). The
 /// record has no data beyond them, which waves ahead of their excitation would need. The phases
 /// refer to the origin and to t = 0 at `start` of the record. O(N) for each harmonic.
 struct Measured : WaveSystem {

@@ -15,10 +15,10 @@ Eigen::MatrixXcd frozen_coefficients(const Eigen::MatrixXcd& coefficients, const
 /// f_r(t) = ramp(t) Re sum_i C_ri exp(i w_i t)
 ///
 /// With few components the sum itself; with many, a table on equal time steps with f, f' and f''
-/// joined by quintic Hermite polynomials: two continuous derivatives. The step is chosen so that
-/// four standard deviations of the error, h^6 w^6 / 46080 of each component, are below 1e-8 of the
-/// significant value (two standard deviations) of each f_r, or of what it is a part of. Outside
-/// [0, end] the sum itself.
+/// joined by quintic Hermite polynomials: two continuous derivatives. The error is h^6 w^6 / 46080
+/// of each component. The step keeps four standard deviations of it below 1e-8 of the significant
+/// value (two standard deviations) of each f_r, or of what it is a part of. Outside [0, end] the
+/// sum itself.
 class Signals {
 public:
   static constexpr double tolerance = 1e-8;

@@ -246,7 +246,7 @@ LinearModel linearize(const model::Scene& scene) {
   system.hydro.added_mass.setZero();
   system.hydro.added_mass_all.setZero();
   system.hydro.link();
-  const auto [y, modes] = statics::settle(still, system);
+  const auto [y, modes, unstable] = statics::settle(still, system);
   build::note_axes(scene, system);
   const Regime s(system, modes);
   const statics::LinearMatrices m = statics::linear_matrices(s, system::find_pattern(s), y);

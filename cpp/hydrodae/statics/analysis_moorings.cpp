@@ -10,8 +10,9 @@ namespace {
 using system::Regime;
 
 bool moors(const element::Elements& laws) {
-  return laws.shape.port == element::Port::points ||
-         laws.shape.port == element::Port::along_distance || laws.type == "mooring_matrix";
+  const bool apart =
+      laws.shape.port == element::Port::points || laws.shape.port == element::Port::along_distance;
+  return laws.moors || (apart && !laws.buoyant);
 }
 
 /// A law as it was evaluated and differentiated: load and its derivatives by x and v, its algebraic

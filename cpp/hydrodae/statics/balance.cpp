@@ -110,7 +110,7 @@ struct Balance {
   VectorX gaps;
   double force_error = INFINITY, gap_error = INFINITY; ///< of weights and lengths
   double rounding = 0.0; ///< of the forces, of weights, by that of the positions
-  std::string trouble;   ///< why there are none; empty: there are
+  std::string trouble;   ///< why they are missing; empty: they exist
 
   bool holds() const {
     return force_error <= std::max(balanced, rounding) && gap_error <= balanced;

@@ -28,7 +28,7 @@ public:
 
   /// Rates and reactions that belong to the positions, velocities and loads, whatever formulation
   /// is integrated; velocities that drives do not allow any more jump by impulses of the rows.
-  /// Throws SolverError where there are none.
+  /// Throws SolverError where they do not exist.
   /// @returns the work of all rows through their impulses [J] where velocities jumped
   std::optional<double> restore(double t, VectorX& y, VectorX& yp);
 

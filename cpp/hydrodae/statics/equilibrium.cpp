@@ -56,17 +56,18 @@ bool take_statics(System& s) {
   return any;
 }
 
-/// Notes a direction, free of the constraints, in which the forces drive the scene away.
-void note_instability(System& s, const LinearMatrices& m, const VectorX& scale) {
+/// Is there a direction, free of the constraints, in which the forces drive the scene away? A note
+/// of it, or "".
+std::string instability(const LinearMatrices& m, const VectorX& scale) {
   const MatrixX G = m.constraints * scale.asDiagonal();
   const MatrixX free = null_space(G);
   if (free.cols() == 0)
-    return;
+    return "";
   const MatrixX K = free.transpose() * scale.asDiagonal() * m.stiffness * scale.asDiagonal() * free;
   const VectorX values = symmetric_eigenvalues(0.5 * (K + K.transpose()));
-  if (values[0] < -1e-6 * values.cwiseAbs().maxCoeff())
-    s.notes.push_back("the equilibrium is unstable: the smallest displacement moves the scene away "
-                      "from it");
+  return values[0] < -1e-6 * values.cwiseAbs().maxCoeff()
+             ? "the equilibrium is unstable: the smallest displacement moves the scene away from it"
+             : "";
 }
 
 /// What counts as a length, or an angle, of a coordinate.
@@ -175,15 +176,17 @@ Rest move_to_equilibrium(System& system) {
     m = balance(rows, y);
   }
   note_switches(rows, system);
-  note_instability(system, m, build::displacement_scale(s));
+  const std::string unstable = instability(m, build::displacement_scale(s));
+  if (!unstable.empty())
+    system.notes.push_back(unstable);
   take_start(system, y);
   if (!less)
-    return {y, rows.modes};
+    return {y, rows.modes, unstable};
   build::start_laws(system);
   VectorX all = system::initial_state(Regime(system, rows.modes));
   all.head(s.z0) = y.head(s.z0);
   all.tail(rows.n - rows.lambda0) = y.tail(rows.n - rows.lambda0);
-  return {all, rows.modes};
+  return {all, rows.modes, unstable};
 }
 
 Rest settle(const model::Scene& scene, System& s) {

@@ -29,11 +29,12 @@ LinearMatrices linear_matrices(const system::Regime& regime, const system::Patte
 struct Rest {
   VectorX y;                               ///< with the reactions
   std::vector<system::Regime::Mode> modes; ///< (n_switches,) which stops hold
+  std::string instability;                 ///< the note of it, where the pose is unstable
 };
 
-/// Newton's method on forces(q, lambda) = 0, g(q) = 0 from the start of the system, without waves,
-/// with the states of forces (pressures, say) held at theirs, dynamic lines at rest, and with the
-/// smallest motion along directions in which nothing holds a body. Moves the start of the system
+/// Newton's method on forces(q, lambda) = 0, g(q) = 0 from the start of the system, without waves.
+/// States of forces, such as pressures, are held; dynamic lines are at rest; the motion is the
+/// smallest along directions in which nothing holds a body. Moves the start of the system
 /// there. An unstable pose is noted. Throws ModelError when there is no equilibrium near, or
 /// velocities are given.
 Rest move_to_equilibrium(system::System& system);

@@ -7,7 +7,7 @@
 namespace hydrodae::statics {
 
 /// Smallest x of A x = b (n,), A = [K, -G^T; G, 0] in units of one; infinite or no number when
-/// there is none. Up to some hundred unknowns by a dense factorisation that tells the rank; above
+/// it does not exist. Up to a few hundred unknowns by a dense factorisation with the rank; above
 /// by a sparse one of A + d diag(1, -1), d next to nothing, and iterative refinement against A,
 /// whose cost grows with the entries of A.
 /// @param n_u rows of K

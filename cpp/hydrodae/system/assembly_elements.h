@@ -122,7 +122,7 @@ void Assembly<Sink>::law_of_points(const PortData& port, const double* load, con
   }
 }
 
-/// The same by the entries of the Jacobian that the list tells.
+/// The same by the entries of the Jacobian in the list.
 template <class Sink>
 void Assembly<Sink>::sparse_law_of_points(const PortData& port, const double* load,
                                           const double* values, const element::Elements& laws,

@@ -29,7 +29,7 @@ void add_port_channels(const System& s, const element::Elements& laws, const Por
                    "Power that it takes out of the motion: minus load times rate."});
 }
 
-/// Own channels of one law: what its port tells, states, and what it declares.
+/// Own channels of one law: what its port shows, states, and what it declares.
 void add_channels(const System& s, const element::Elements& laws, std::size_t law,
                   const PortData& port, std::vector<Channel>& out) {
   const std::string head = "forces/" + laws.names[law] + "/";

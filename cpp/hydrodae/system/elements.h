@@ -15,7 +15,7 @@ inline std::size_t index_of(const Regime& s, const ElementList& list) {
 }
 
 /// s and s' of the motion of a port, with the gradient of s. A delayed law sees those of the past,
-/// or where there is none the place where the motion stands, at rest.
+/// or without a past the place where the motion stands, at rest.
 template <class S>
 void see_motion(const Regime& s, const Workspace<S>& ws, const PortData& port, S* x, S* v,
                 joint::Vec12<S>& gradient) {

@@ -16,8 +16,8 @@ constexpr double points_of_wave = 7.0, least_of_wave = 0.2, most_of_wave = 0.5;
 constexpr double most_turn = 12.0; ///< of a joint in one step [rad]; see turned_angle
 constexpr double kept = 0.999;     ///< of the variance: waves that matter are longer than that
 
-/// Response of a body of unit mass that is as stiff as its time scale tells to a load per metre of
-/// each component: |C| / max(1/T, w)^2.
+/// Response of a body of unit mass that is as stiff as its time scale implies, to a load per metre
+/// of each component: |C| / max(1/T, w)^2.
 VectorX response(const VectorX& C, const VectorX& omega, double time_scale) {
   VectorX out(C.size());
   for (Index i = 0; i < C.size(); ++i) {
@@ -172,7 +172,7 @@ void Forcing::add_paths(const Regime& s) {
   }
 }
 
-/// What laws tell of themselves; of those that follow the time otherwise the loads at the start
+/// What laws state of themselves; of those that follow the time otherwise the loads at the start
 /// pose, at rest.
 void Forcing::add_elements(const Regime& s, double end, double output_step) {
   Workspace<double> ws(s);

@@ -23,7 +23,7 @@ public:
     const std::string* by = nullptr;
   };
 
-  /// @param turns of the state from which the step starts: tells where bodies are on their paths
+  /// @param turns of the state from which the step starts: where bodies are on their paths
   /// @param gap largest part of the step between two times at which it asks for the loads
   Limit limit(const Turns& turns, double gap);
 

@@ -154,8 +154,8 @@ void History::add_points(const Node& from, const Node& to, const MatrixX& value)
                  });
 }
 
-/// The cubic from a step's start to its trial end has missed e(x) = E 16 x^2 (1 - x)^2 of U, which
-/// has put |K| h 8 E / 15 into the load and, over A_inf, h times that into the velocity: of order
+/// The cubic from a step's start to its trial end has missed e(x) = E 16 x^2 (1 - x)^2 of U. That
+/// puts |K| h 8 E / 15 into the load and, over A_inf, h times that into the velocity: of order
 /// h^6. The next step is to keep it below the tolerance of the largest velocity so far.
 void History::judge(const Node& from, const Node& to, const MatrixX& value) {
   if (n_U_ == 0)
@@ -244,7 +244,7 @@ void History::forget() {
     nodes_.erase(nodes_.begin());
 }
 
-/// The last node at or before t; the first where there is none.
+/// The last node at or before t; without one, the first.
 std::size_t History::node_before(double t) const {
   std::size_t k = nodes_.size() - 1;
   while (k > 0 && nodes_[k].t > t)

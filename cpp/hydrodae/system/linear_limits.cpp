@@ -68,7 +68,7 @@ LinearLimits linear_limits(const model::Scene& scene, const System& s) {
     watched.free_yaw = s.hydro.axes == HydroAxes::yaw;
     const model::Body& body = scene.bodies[static_cast<std::size_t>(hb.body)];
     const bool follows_rise =
-        body.hydrostatics == "mesh" && hb.table >= 0 &&
+        body.hydrostatics_by_mesh() && hb.table >= 0 &&
         s.hydro.tables[static_cast<std::size_t>(hb.table)].axis.component == 2;
     for (const hydro::DatabaseBody& entry : scene.database->bodies)
       if (entry.name == *body.hydro && !follows_rise && entry.hydrostatics &&

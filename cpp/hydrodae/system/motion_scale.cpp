@@ -10,9 +10,9 @@ namespace hydrodae::system {
 
 namespace {
 
-constexpr double full = 0.1;           ///< motion [levers] from which on the full scales hold
-constexpr double rounding_error = 1e3; ///< epsilons of a position: no step's error is below
-constexpr double settled = 20.0; ///< time scales after which what was reached tells the motion
+constexpr double full = 0.1;            ///< motion [levers] from which on the full scales hold
+constexpr double rounding_error = 1e3;  ///< epsilons of a position: no step's error is below
+constexpr double settled = 20.0;        ///< time scales after which what was reached is the motion
 constexpr double slack_of_scales = 1.5; ///< of a change that is worth new scales
 
 /// In levers.

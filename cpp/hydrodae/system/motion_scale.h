@@ -1,7 +1,7 @@
 #pragma once
-/// Tolerances follow the motion: an error of a micrometre is none where a device moves by metres,
-/// and all where it moves by micrometres. Where bodies turn much more than they are displaced, as a
-/// top that spins upright, those of translations follow the displacement.
+/// Tolerances follow the motion: an error of a micrometre is nothing where a device moves by
+/// metres, and all where it moves by micrometres. Where bodies turn much more than they are
+/// displaced, as a top that spins upright, those of translations follow the displacement.
 
 #include "hydrodae/system/jacobian.h"
 

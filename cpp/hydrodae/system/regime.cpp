@@ -9,8 +9,8 @@ namespace hydrodae::system {
 
 namespace {
 
-/// Places of the multipliers in y = [q | u | z | lambda | mu | sigma]; `guided`: rows that have
-/// none, or empty.
+/// Places of the multipliers in y = [q | u | z | lambda | mu | sigma]; `guided`: rows without
+/// a multiplier, or empty.
 void set_offsets(Regime& s, const std::vector<bool>& guided) {
   s.lambdas.assign(s.system.n_rows, redundant);
   s.mus.assign(s.system.n_rows, redundant);

@@ -81,7 +81,7 @@ struct Regime {
   std::vector<std::vector<Lag>> lags; ///< of the first signals of each list; empty: none has one
   std::vector<double> static_loads;   ///< (n_switches,) of dry friction
   std::vector<double> rates;          ///< (n_couplers,) constant part of drives at velocity level
-  std::vector<double> nearby;         ///< Turns::value near those now: they tell the turn
+  std::vector<double> nearby;         ///< Turns::value near those now: they fix the turn
   VectorX motion_scale;               ///< (n_groups,) part of the full scales that its motion takes
   VectorX translation_scale;          ///< (n_groups,) of which its translations take so much
 

@@ -10,7 +10,7 @@
 /// State vector y = [q | u | z | lambda | mu | sigma]; the row of an algebraic unknown holds the
 /// equation it belongs to: lambda - velocity constraint, mu - position constraint, sigma - norm.
 /// A System is built once and constant from then on; which of its rows hold at a time of a run, and
-/// where their multipliers stand in y, is told by a Regime (regime.h).
+/// where their multipliers stand in y, is held by a Regime (regime.h).
 
 #include <algorithm>
 #include <array>
@@ -48,7 +48,7 @@ struct BodyData {
   int n_translations = 0;       ///< how many of them are translations (they come first)
   int n_position = 0;           ///< number of position unknowns (n_active, or 7)
   Index q0 = 0, u0 = 0;         ///< offsets into y
-  Index norm = -1;              ///< of its quaternion, among those of all bodies; -1: it has none
+  Index norm = -1;              ///< of its quaternion, among those of all bodies; -1 if absent
   double length_scale = 1.0;    ///< [m], what a position error is measured by
   double lever = 1.0;           ///< [m], turns lengths into angles
   bool time_scale_known = true; ///< else taken from the start (no gravity, none given)
@@ -89,7 +89,7 @@ struct MotionData {
   int joint = 0;
   joint::FreeMotion motion;
   std::string name;   ///< angle, displacement, angle_2, ...
-  double start = 0.0; ///< near the value at the start: tells the turn of an angle
+  double start = 0.0; ///< near the value at the start: fixes the turn of an angle
 };
 
 /// A rotation that a law or the results see as a vector: of a body from its reference pose turned
@@ -244,9 +244,9 @@ struct System {
   std::vector<int> error_group;       ///< (lambda0,) the same; absolute states have their own
   VectorX group_size;                 ///< (n_error_groups,) how many of these each has
   bool scales_follow = true;          ///< the motion; else length_scale was given
-  std::vector<std::string> notes;     ///< what the build found worth telling
+  std::vector<std::string> notes;     ///< what the build found worth a note
   std::vector<GaugeData> gauges;
-  sea::WaveField gauged; ///< what these see; without terms where there are none
+  sea::WaveField gauged; ///< what these see; without terms if there are no gauges
 
   Index n_error_groups() const { return group_size.size(); }
   bool has_memory() const { return memory0 < lambda0; }
@@ -317,8 +317,8 @@ void calm(System& system);
 /// elements were added.
 void number(System& system);
 
-/// Time scales of bodies that have none yet, from the velocities and accelerations of the start:
-/// the time in which a body moves, or speeds up by, its own length.
+/// Time scales of bodies that are still without one, from the velocities and accelerations of the
+/// start: the time in which a body moves, or speeds up by, its own length.
 void take_time_scales(System& system, const VectorX& y, const VectorX& yp);
 
 } // namespace hydrodae::system

@@ -41,7 +41,7 @@ public:
   /// the last `rates`; unit quaternions. False when it does not converge.
   bool project(double t, VectorX& x);
 
-  /// The same for x of the last `rates`, which misses these rows by a little, and its rates anew.
+  /// The same for x of the last `rates`, which misses these rows by a little, and its rates again.
   bool close(double t, VectorX& x, VectorX& xp);
 
   /// What belongs to accepted steps moves on.

@@ -25,8 +25,8 @@ struct Freedom {
   bool advances = false;
 };
 
-/// Told by its rows: a slide along each axis of marker A that no row spans, and the turns that its
-/// pairs of axes leave; nothing: it is none of the kinds that can be a link.
+/// By its rows: a slide along each axis of marker A that no row spans, and the turns that its
+/// pairs of axes leave; empty for a kind that cannot be a link.
 std::optional<Freedom> freedom_of(const joint::JointType& type) {
   using joint::X, joint::Y, joint::Z;
   using Kind = joint::BasicRow::Kind;
@@ -87,7 +87,7 @@ void lock(const system::BodyData& child, const Matrix3& axes, TreeLink& l) {
     l.angle_factor = (l.axis.dot(only) > 0.0) == l.turned ? -1.0 : 1.0;
 }
 
-/// A joint as a link of `child`, whatever the poses; nothing: it is none of the kinds that can be.
+/// A joint as a link of `child`, whatever the poses; empty for a kind that cannot be one.
 std::optional<TreeLink> link_through(const system::System& s, int joint, int child, int parent) {
   const system::JointData& j = s.joints[static_cast<std::size_t>(joint)];
   const std::optional<Freedom> freedom = freedom_of(*j.type);

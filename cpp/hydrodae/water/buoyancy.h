@@ -9,6 +9,7 @@ namespace hydrodae::water {
 /// Buoyancy of a body under water that no database covers: rho g V upwards at a point of the body.
 struct Buoyancy {
   static constexpr std::string_view type = "buoyancy";
+  static constexpr bool buoyant = true;
   static constexpr element::Port port = element::Port::points;
   static constexpr int n_points = 1;
   static constexpr element::Work work = element::Work::lent;

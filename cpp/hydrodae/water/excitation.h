@@ -36,7 +36,7 @@ public:
     std::string name;
     HydroBody wet;
     Vector3 reference = Vector3::Zero(); ///< centre of gravity in the reference pose [m]
-    double length = 1.0;                 ///< that tells noise of moments from that of forces [m]
+    double length = 1.0;                 ///< between noise of moments and that of forces [m]
     YawFunctions yaw;
     PoseAxis poses;
     Terms moving;        ///< loads along the coordinates that move

@@ -62,6 +62,7 @@ private:
 
 HullList::HullList(const hull::Water& water, std::vector<hull::Wave> waves, double ramp_time)
     : water_(water), waves_(std::move(waves)), ramp_time_(ramp_time) {
+  buoyant = true;
   type = waves_.empty() ? "hydrostatic" : "pressure";
   shape.port = element::Port::in_water;
   shape.feels_rates = false;

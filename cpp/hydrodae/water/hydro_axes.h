@@ -2,15 +2,15 @@
 /// Axes in which added mass, radiation and excitation act on a body, and what these loads are
 /// there.
 ///
-/// In axes carried by the bodies, with U = (R^T v, w) and the fluid's momentum P = A_inf U = (p,
-/// h), the fluid takes from a body the force d/dt(R p) + R y and the moment d/dt(R h) + v x R p + R
-/// y (Kirchhoff; Lamb, Hydrodynamics, art. 124), which conserves U.P/2 when the load y beside it is
-/// zero. In mean axes, which a constant yaw H turns, U = (H^T v, H^T R w) and the load is
+/// In axes carried by the bodies U = (R^T v, w), and the fluid has the momentum P = A_inf U = (p,
+/// h). The fluid takes from a body the force d/dt(R p) + R y and the moment d/dt(R h) + v x R p +
+/// R y (Kirchhoff; Lamb, Hydrodynamics, art. 124). This conserves U.P/2 when the load y beside it
+/// is zero. In mean axes, which a constant yaw H turns, U = (H^T v, H^T R w) and the load is
 /// H (A_inf U' + y).
 ///
-/// In axes H that turn with the yaw psi of the body, U = (H^T v, H^T R w) = (V, W), and the load is
-/// H (p' + W_z x p) and H (h' + W_z x h) + s e_z.(V x p + W x h), with W_z = psi' e_z, psi' = s.w:
-/// this too conserves U.P/2 when y = 0.
+/// In axes H that turn with the yaw psi of the body, U = (H^T v, H^T R w) = (V, W). The load is
+/// H (p' + W_z x p) and H (h' + W_z x h) + s e_z.(V x p + W x h), with W_z = psi' e_z, psi' = s.w.
+/// This too conserves U.P/2 when y = 0.
 
 #include <algorithm>
 #include <array>

@@ -10,6 +10,7 @@ namespace hydrodae::water {
 /// the database, turned with the mean yaw.
 struct Hydrostatics {
   static constexpr std::string_view type = "hydrostatic";
+  static constexpr bool buoyant = true;
   static constexpr element::Port port = element::Port::on_body;
   static constexpr element::Work work = element::Work::lent;
   std::string name;

@@ -33,6 +33,8 @@ struct Morison {
   int segments = 20;
   std::string surface = "mean";
 
+  bool has_inertia() const { return added_mass_coefficient || added_mass_axial > 0.0; }
+
   static Fields<Morison> fields();
 };
 

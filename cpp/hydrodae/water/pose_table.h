@@ -100,7 +100,7 @@ struct PoseTable {
   int hydro_body = 0;
   PoseAxis axis;
   std::vector<Matrix6> added_mass; ///< of each pose
-  std::vector<Matrix6> damping;    ///< likewise; empty: there is none
+  std::vector<Matrix6> damping;    ///< likewise; empty without damping
   int first_weight = 0;            ///< in the weights of all tables
 };
 

@@ -7,7 +7,7 @@ import math
 import os
 import re
 import tomllib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
@@ -23,6 +23,18 @@ if TYPE_CHECKING:
 
 _BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
 _BARE_WORD = re.compile(r"[A-Za-z_./][A-Za-z0-9_./+-]*")  # as the kernel has it
+
+
+class Teller(Protocol):
+    """Names what made the lines of a text, in errors of the kernel."""
+
+    def error(self, error: CaseError) -> CaseError:
+        """Return the error with what made the line in place of the file."""
+        ...
+
+    def place(self, place: tuple[str, int, int]) -> tuple[str, int, int]:
+        """Return the same of file, line and column alone."""
+        ...
 
 
 class Case:
@@ -43,8 +55,8 @@ class Case:
     libraries : sequence of paths, optional
         Shared libraries with the laws of forces of type ``library_load`` and ``library_wrench``
         (cpp/hydrodae/element/plugin.h). They are programs: load what you trust only.
-    tell : callable, optional
-        Rewrites a message that begins with a place in `text`, for a text that nobody wrote.
+    tell : Teller, optional
+        Says where errors are in a text that nobody wrote.
 
     Raises
     ------
@@ -65,7 +77,7 @@ class Case:
         directory: str | os.PathLike[str] = ".",
         values: Mapping[str, Any] | None = None,
         libraries: Sequence[str | os.PathLike[str]] = (),
-        tell: Callable[[str], str] | None = None,
+        tell: Teller | None = None,
     ) -> None:
         if (text is None) == (path is None):
             raise TypeError("a case needs either a text or a path")
@@ -226,8 +238,8 @@ class Case:
     def _read(self, overrides: dict[str, str]) -> Scene:
         if self._path is not None and not self._path.is_file():
             if self._path.is_dir():
-                raise CaseError(f"{self._path}: is a folder; give the case file in it")
-            raise CaseError(f"{self._path}: no such case file{_near_file(self._path)}")
+                raise CaseError("is a folder; give the case file in it", file=str(self._path))
+            raise CaseError(f"no such case file{_near_file(self._path)}", file=str(self._path))
         from hydrodae import _core
 
         if self._path is not None:
@@ -244,9 +256,9 @@ def _refuse_other_kind(path: Path) -> None:
     with path.open("rb") as file:
         head = file.read(8)
     if head.startswith((b"\x89HDF", b"CDF", b"\x89PNG", b"%PDF", b"PK")):
-        raise CaseError(f"{path}: is a {outputs.kind_of(path)}; a case is a TOML file")
+        raise CaseError(f"is a {outputs.kind_of(path)}; a case is a TOML file", file=str(path))
     if head.startswith((b"\xff\xfe", b"\xfe\xff")):
-        raise CaseError(f"{path}: is text in UTF-16; save the case as UTF-8")
+        raise CaseError("is text in UTF-16; save the case as UTF-8", file=str(path))
 
 
 class MakesCase(Protocol):
@@ -344,18 +356,15 @@ def parse_assignment(text: str) -> tuple[str, Any]:
         ) from None
 
 
-def _parse_told(
-    text: str, directory: str, overrides: dict[str, str], tell: Callable[[str], str]
-) -> Scene:
-    """Parse a case whose messages, also the later ones about the scene, go through `tell`."""
+def _parse_told(text: str, directory: str, overrides: dict[str, str], tell: Teller) -> Scene:
+    """Parse a case whose errors, also the later ones about the scene, go through `tell`."""
     from hydrodae import _core
 
     try:
         scene = _core.parse_case(text, directory, overrides)
     except CaseError as error:
-        raise CaseError(tell(str(error))) from None
-    places = {key: tell(f"{place}: ") for key, place in scene.positions.items()}
-    return scene.with_positions({key: place.removesuffix(": ") for key, place in places.items()})
+        raise tell.error(error) from None
+    return scene.with_places({key: tell.place(place) for key, place in scene.places.items()})
 
 
 def _key(key: Any, context: str) -> str:

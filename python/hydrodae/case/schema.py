@@ -72,8 +72,12 @@ def _key_schema(key: Key) -> Schema:
     return schema
 
 
+#: Numbers that are no floating-point ones, in the words of the schema.
+_NUMBERS = {"integer": "integer"}
+
+
 def _value_schema(key: Key) -> Schema:
-    number = {"type": "integer" if key.kind == "integer" else "number", **_range(key)}
+    number = {"type": _NUMBERS.get(key.kind, "number"), **_range(key)}
     word: Schema = {"type": "string", **({"enum": list(key.choices)} if key.choices else {})}
     six = _list(number, 6)
     match key.kind:

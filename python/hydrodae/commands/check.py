@@ -33,7 +33,7 @@ def run(arguments: argparse.Namespace) -> int:
     case = given_case(arguments)
     text = check(case, every_line=arguments.all or arguments.json)
     if arguments.json:
-        print_json(counts(case, text) | {"text": text.splitlines()})
+        print_json(counts(case) | {"text": text.splitlines()})
     else:
         print(text, end="")
     return 0

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from hydrodae.errors import CaseError
 
 if TYPE_CHECKING:
-    from hydrodae.records import Component, Elevation, Spectrum, Table
+    from hydrodae.records import Table
 
-KINDS = ("elevation", "spectrum", "components")
+#: Notes and the keys of the wave systems.
+Found: TypeAlias = tuple[list[str], list[dict[str, Any]]]
 
 
 def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -29,7 +32,9 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "-o", "--output", metavar="FILE", help="elevation: the record of the case, .csv"
     )
     parser.add_argument(
-        "--kind", choices=KINDS, help="what the file holds (default: by the names of its columns)"
+        "--kind",
+        choices=tuple(KINDS),
+        help="what the file holds (default: by the names of its columns)",
     )
     parser.add_argument(
         "--columns",
@@ -53,7 +58,7 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 
 def run(arguments: argparse.Namespace) -> int:
     """Read a record and print its [[wave]] tables; returns 0."""
-    from hydrodae.records import read_components, read_elevation, read_spectrum, read_table
+    from hydrodae.records import read_table
 
     names = None
     if arguments.columns:
@@ -64,17 +69,7 @@ def run(arguments: argparse.Namespace) -> int:
         return 0
     kind = arguments.kind or _kind_of(table)
     _refuse_idle(arguments, kind)
-    heading = arguments.heading or 0.0
-    if kind == "elevation":
-        record = read_elevation(
-            table, column=arguments.column or "", time=arguments.time or "", rate=arguments.rate
-        )
-        _print(*_of_elevation(arguments, record, heading))
-    elif kind == "spectrum":
-        _print(*_of_spectrum(arguments, read_spectrum(table)))
-    else:
-        found = read_components(table, heading_deg=heading)
-        _print(*_of_components(arguments.name, found, table))
+    _print(*KINDS[kind].read(arguments, table))
     return 0
 
 
@@ -96,17 +91,24 @@ def _kind_of(table: Table) -> str:
 
 def _refuse_idle(arguments: argparse.Namespace, kind: str) -> None:
     """Refuse options that do nothing for what the file holds."""
+    if KINDS[kind].writes:
+        if arguments.output is None:
+            raise CaseError(
+                f"{arguments.file}: an elevation needs -o FILE.csv, which the case reads"
+            )
+        return
     for option in ("column", "time", "rate", "output"):
-        if getattr(arguments, option) is not None and kind != "elevation":
+        if getattr(arguments, option) is not None:
             name = "-o" if option == "output" else f"--{option}"
             raise CaseError(f"{name}: is for an elevation, and {arguments.file} holds a {kind}")
-    if kind == "elevation" and arguments.output is None:
-        raise CaseError(f"{arguments.file}: an elevation needs -o FILE.csv, which the case reads")
 
 
-def _of_elevation(
-    arguments: argparse.Namespace, record: Elevation, heading: float
-) -> tuple[list[str], list[dict[str, Any]]]:
+def _of_elevation(arguments: argparse.Namespace, table: Table) -> Found:
+    from hydrodae.records import read_elevation
+
+    record = read_elevation(
+        table, column=arguments.column or "", time=arguments.time or "", rate=arguments.rate
+    )
     written = record.write(arguments.output)
     print(f"written: {written}", file=sys.stderr)
     notes = [
@@ -119,15 +121,16 @@ def _of_elevation(
         "name": arguments.name,
         "type": "measured",
         "file": str(written),
-        "heading_deg": heading,
+        "heading_deg": arguments.heading or 0.0,
         "taper": min(30.0, float(f"{0.1 * record.length:.3g}")),
     }
     return notes, [keys]
 
 
-def _of_spectrum(
-    arguments: argparse.Namespace, found: Spectrum
-) -> tuple[list[str], list[dict[str, Any]]]:
+def _of_spectrum(arguments: argparse.Namespace, table: Table) -> Found:
+    from hydrodae.records import read_spectrum
+
+    found = read_spectrum(table)
     if found.heading is not None and arguments.heading is not None:
         raise CaseError(f"--heading: {arguments.file} has directions of its own")
     waves = found.waves(arguments.name, arguments.heading or 0.0)
@@ -139,12 +142,28 @@ def _of_spectrum(
     return notes, waves
 
 
-def _of_components(
-    name: str, found: list[Component], table: Table
-) -> tuple[list[str], list[dict[str, Any]]]:
+def _of_components(arguments: argparse.Namespace, table: Table) -> Found:
+    from hydrodae.records import read_components
+
+    found = read_components(table, heading_deg=arguments.heading or 0.0)
     height = 4.0 * (0.5 * sum(one.amplitude**2 for one in found)) ** 0.5
     notes = [f"{len(found)} components; significant height {height:.4g} m", *table.notes]
-    return notes, [one.wave(f"{name}_{k}") for k, one in enumerate(found, 1)]
+    return notes, [one.wave(f"{arguments.name}_{k}") for k, one in enumerate(found, 1)]
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What a file may hold: how it becomes wave systems, and whether a file is written for them."""
+
+    read: Callable[[argparse.Namespace, Table], Found]
+    writes: bool = False
+
+
+KINDS = {
+    "elevation": Kind(_of_elevation, writes=True),
+    "spectrum": Kind(_of_spectrum),
+    "components": Kind(_of_components),
+}
 
 
 def _print(notes: list[str], waves: list[dict[str, Any]]) -> None:

@@ -69,10 +69,10 @@ class Plant:
         case = self.model.case
         silent = dict.fromkeys(case.scene.python_controllers, lambda *_: 0.0)  # no step is made
         run = Simulation(case, set={"solver.start": "equilibrium"}, controllers=silent)
-        for kind in ("displacement", "angle"):
+        for kind, turns in (("displacement", False), ("angle", True)):
             name = f"joints/{self.joint}/{kind}"
             if name in run.channels:
-                self.turns = kind == "angle"
+                self.turns = turns
                 return float(run.read(name))
         raise CaseError(f"joint {self.joint!r} has no coordinate")
 

@@ -16,7 +16,7 @@ from hydrodae.support.extras import install_command
 
 Array = NDArray[np.float64]
 
-#: How dear it is to exceed the stroke or the velocity, against the curvature of the program.
+#: How expensive it is to exceed the stroke or the velocity, against the curvature of the program.
 _EXCEED = 1e4
 
 #: Least eigenvalue of a program, of its largest, above which it has one solution.

@@ -17,7 +17,7 @@ from hydrodae.case.case import CaseLike, read_case, to_toml
 from hydrodae.case.contents import case_tables, tables_of
 from hydrodae.errors import CaseError
 from hydrodae.fmu.description import Description, model_description, start_text, type_of
-from hydrodae.fmu.variables import Variable, choose, number_at
+from hydrodae.fmu.variables import PARAMETER, Variable, choose, number_at
 
 #: Where the library looks for those of a wheel, and where they are in an FMU: beside it. Importers
 #: need not unpack other folders. The string of the file keeps its length.
@@ -158,7 +158,7 @@ def _variables_text(values: Mapping[str, str], variables: Sequence[Variable]) ->
     lines.append(["time", "0"])
     for v in variables:
         start = [] if v.start is None else [start_text(v.start)]
-        kind = type_of(v).line if v.kind == "parameter" else v.kind
+        kind = type_of(v).line if v.causality is PARAMETER else v.causality.word
         lines.append([kind, str(v.reference), *start, v.name])
     for line in lines:
         if any(set(field) & set("\t\n\r") for field in line):

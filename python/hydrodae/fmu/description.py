@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from xml.etree import ElementTree as Xml
 
 from hydrodae.fmu.units import base_units
-from hydrodae.fmu.variables import Value, Variable
+from hydrodae.fmu.variables import OUTPUT, Value, Variable
 from hydrodae.support.version import version
 
 _CAN = {
@@ -82,10 +82,10 @@ def _root_3(told: Description) -> Xml.Element:
         added = _add(variables, type_of(variable).fmi3, **attributes, **start)
         if text is not None:
             _add(added, "Start", value=text)
-        if variable.kind == "output":
+        if variable.causality is OUTPUT:
             _add(structure, "Output", valueReference=number)
     for variable in told.variables:
-        if variable.kind == "output":
+        if variable.causality is OUTPUT:
             number = str(variable.reference)
             _add(structure, "InitialUnknown", valueReference=number)
     root.append(structure)
@@ -109,7 +109,7 @@ def _root_2(told: Description) -> Xml.Element:
         unit = {"unit": attributes.pop("unit")} if "unit" in attributes else {}
         scalar = _add(variables, "ScalarVariable", **attributes)
         _add(scalar, type_of(variable).fmi2, **unit, **_value(variable))
-        if variable.kind == "output":
+        if variable.causality is OUTPUT:
             outputs.append(str(place))
     structure = _add(root, "ModelStructure")
     for name in ("Outputs", "InitialUnknowns") if outputs else ():
@@ -135,11 +135,11 @@ def _attributes(variable: Variable) -> dict[str, str]:
     out = {
         "name": variable.name,
         "valueReference": str(variable.reference),
-        "causality": variable.kind,
-        "variability": "fixed" if variable.kind == "parameter" else "continuous",
+        "causality": variable.causality.word,
+        "variability": variable.causality.variability,
     }
-    if variable.kind != "input":
-        out["initial"] = "exact" if variable.kind == "parameter" else "calculated"
+    if variable.causality.initial:
+        out["initial"] = variable.causality.initial
     if variable.unit not in ("", "-"):
         out["unit"] = variable.unit
     return out

@@ -21,10 +21,24 @@ Value = float | int | bool | str
 
 
 @dataclass(frozen=True)
+class Causality:
+    """What an importer does with a variable, in words of FMI: set it before the run, or read it."""
+
+    word: str
+    variability: str = "continuous"
+    initial: str = ""  #: how it gets its start
+
+
+PARAMETER = Causality("parameter", "fixed", "exact")
+INPUT = Causality("input")
+OUTPUT = Causality("output", initial="calculated")
+
+
+@dataclass(frozen=True)
 class Variable:
     """One number that an importer reads or sets; parameters may be of other types."""
 
-    kind: str  #: "parameter", "input" or "output"
+    causality: Causality
     reference: int
     name: str
     unit: str
@@ -59,17 +73,17 @@ def choose(
     run = Simulation(case)
     units = components(run)
     held = run.inputs
-    taken: list[tuple[str, str, str, Value | None]] = []
-    taken += [("parameter", key, "", parameter_at(case, key)) for key in parameters]
+    taken: list[tuple[Causality, str, str, Value | None]] = []
+    taken += [(PARAMETER, key, "", parameter_at(case, key)) for key in parameters]
     taken += [
-        ("input", name, run.input_units[name], held[name])
+        (INPUT, name, run.input_units[name], held[name])
         for name in _filtered("input", held, inputs)
         if not _is_taken(case, name, inputs)
     ]
-    taken += [("output", name, units[name], None) for name in _filtered("channel", units, outputs)]
+    taken += [(OUTPUT, name, units[name], None) for name in _filtered("channel", units, outputs)]
     return [
-        Variable(kind, number, name, unit, start)
-        for number, (kind, name, unit, start) in enumerate(taken, start=1)
+        Variable(causality, number, name, unit, start)
+        for number, (causality, name, unit, start) in enumerate(taken, start=1)
     ]
 
 

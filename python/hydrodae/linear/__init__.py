@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from hydrodae.linear.model import LinearModel
 from hydrodae.linear.modes import Mode
-from hydrodae.linear.reading import MISSING_MEMORY, without_memory
+from hydrodae.linear.reading import without_memory
 from hydrodae.linear.response import Response
 
-__all__ = ["MISSING_MEMORY", "LinearModel", "Mode", "Response", "without_memory"]
+__all__ = ["LinearModel", "Mode", "Response", "without_memory"]

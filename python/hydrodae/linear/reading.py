@@ -9,9 +9,6 @@ from hydrodae.case import Case
 from hydrodae.case.case import CaseLike, read_case
 from hydrodae.errors import CaseError
 
-#: What the messages of the kernel say where a database lacks a fit or a radiation kernel.
-MISSING_MEMORY = ("holds no exponential fit", "holds no radiation kernel")
-
 
 def without_memory(
     case: CaseLike, values: Mapping[str, Any] | None = None
@@ -40,6 +37,6 @@ def without_memory(
     try:
         return read_case(case, values), None
     except CaseError as error:
-        if not any(words in str(error) for words in MISSING_MEMORY):
+        if error.key != "hydro.database":  # which lacks a fit or a kernel, or cannot be read
             raise
         return read_case(case, {**(values or {}), "hydro.radiation": "none"}), error

@@ -62,11 +62,15 @@ def read_moordyn(
         rods that lines end at, stiffness from a table, a seabed that is not flat, a line at rest on
         a seabed in a way that `catenary` does not know.
     """
-    if type not in ("catenary", "line"):
+    if type not in _DYNAMIC:
         raise CaseError(f"type: expected 'catenary' or 'line' instead of {type!r}")
     deck = read_deck(path)
     names = {COUPLED: body} | {key.lower(): name for key, name in (bodies or {}).items()}
-    return _Conversion(deck, Places(deck, names, poses(at)), type == "line").run()
+    return _Conversion(deck, Places(deck, names, poses(at)), _DYNAMIC[type]).run()
+
+
+#: Types of lines that there are, and whether they have a motion of their own.
+_DYNAMIC = {"catenary": False, "line": True}
 
 
 class _Conversion:

@@ -14,6 +14,7 @@ from hydrodae.mooring.moordyn_deck import Deck, Point
 Array = NDArray[np.float64]
 #: What --body and --at say of coupled points.
 COUPLED = ""
+_OF_VESSEL = ("coupled",)
 
 
 @dataclass(frozen=True)
@@ -117,10 +118,10 @@ class Places:
 
     def _key(self, point: Point) -> str:
         kind = point.attachment
-        if kind == "coupled":
-            return COUPLED
         if kind.startswith("turbine"):
             return kind
+        if kind in _OF_VESSEL:
+            return COUPLED
         number = kind.removeprefix("body")
         if kind == number or number not in self.deck.bodies:
             raise point.row.fail(

@@ -44,6 +44,11 @@ class Hold:
     readings: dict[str, tuple[float, str]]
 
     @property
+    def has_moment(self) -> bool:
+        """Whether it acts by force and moment on a body, as a matrix does, and not at points."""
+        return len(self.load) > 3 * len(self.bodies)
+
+    @property
     def held(self) -> list[str]:
         """Bodies that it acts on, each once."""
         return list(dict.fromkeys(body for body in self.bodies if body is not None))
@@ -111,7 +116,7 @@ def mooring_stiffness(model: LinearModel, moorings: Sequence[Hold]) -> MooringSt
     n = 6 * len(bodies)
     out = MooringStiffness(bodies, np.zeros(n), np.zeros((n, n)), np.zeros((n, n)))
     for hold in moorings:
-        if hold.type == "mooring_matrix":
+        if hold.has_moment:
             _add_matrix(model, hold, out)
         else:
             _add_points(model, hold, out)

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
     from hydrodae.results import Results
 
-#: Lines that differ by less, relative to their span, cannot be told apart in a picture.
+#: Lines that differ by less, relative to their span, look alike in a picture.
 _SAME = 0.005
 
 

@@ -14,7 +14,7 @@ from hydrodae.results import Results
 
 Array = NDArray[np.float64]
 
-#: Types of waves with a target; regular and measured waves have none.
+#: Types of waves with a target; not regular and measured waves.
 _TYPES = ("jonswap", "bretschneider", "pierson_moskowitz", "ochi_hubble", "table")
 #: Acceleration of gravity of a case that names none, and of Pierson and Moskowitz [m/s2].
 _GRAVITY = 9.81

@@ -15,7 +15,7 @@ from hydrodae.pictures.plot import STYLE
 from hydrodae.report import page
 from hydrodae.report.study import about
 
-#: A parameter within this part of the width of its bounds from one of them is told to be there.
+#: A parameter within this part of the width of its bounds from one of them counts as being there.
 _AT_BOUND = 1e-6
 
 

@@ -40,7 +40,7 @@ def report_of_study(path: str | os.PathLike[str], study: xr.Dataset) -> str:
 
 def _sections(path: Path, study: xr.Dataset) -> Iterator[str]:
     yield page.section("Outcome", page.text_block(text(study)))
-    names = [str(name) for name in study.data_vars if study[name].dtype.kind == "f"]
+    names = [str(name) for name in study.data_vars if np.issubdtype(study[name].dtype, np.floating)]
     ends = [f"{name}{end}" for name in names for end in ENDS]
     names.sort(key=lambda name: _FIRST.index(name) if name in _FIRST else len(_FIRST))
     for name in names:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -51,40 +50,22 @@ def check(
     return text if every_line else grouped(text)
 
 
-def counts(case: CaseLike, text: str) -> dict[str, Any]:
-    """What the examination of a case says in numbers.
-
-    Parameters
-    ----------
-    case : Case, Scene or path
-    text : str
-        What `check` said of it.
+def counts(case: CaseLike) -> dict[str, Any]:
+    """What `check` shows of a case in numbers.
 
     Returns
     -------
     dict
-        `title`, `bodies`, `joints`, `waves` (names), and where the text shows them `unknowns`,
-        `positions`, `velocities`, `states`, `multipliers`, `nonzeros`, `degrees_of_freedom`,
-        `constraint_rows`.
+        `title`, `bodies`, `joints`, `waves` (names), `unknowns`, `positions`, `velocities`,
+        `states`, `multipliers`, `nonzeros`, `degrees_of_freedom`, `constraint_rows`.
     """
+    from hydrodae import _core
+
     scene = read_case(case).scene
-    found: dict[str, Any] = {
+    return {
         "title": scene.title,
         "bodies": scene.body_names,
         "joints": scene.joint_names,
         "waves": scene.wave_names,
+        **_core.count(scene),
     }
-    size = re.search(
-        r"unknowns: (\d+) = (\d+) positions \+ (\d+) velocities \+ (\d+) states"
-        r"((?: \+ \d+)*) multipliers; (\d+) nonzeros",
-        text,
-    )
-    if size is not None:
-        names = ("unknowns", "positions", "velocities", "states")
-        found |= {name: int(size[k + 1]) for k, name in enumerate(names)}
-        found["multipliers"] = sum(map(int, re.findall(r"\d+", size[5])))
-        found["nonzeros"] = int(size[6])
-    left = re.search(r"mobility: (\d+) degrees of freedom left by (\d+) constraint rows", text)
-    if left is not None:
-        found |= {"degrees_of_freedom": int(left[1]), "constraint_rows": int(left[2])}
-    return found

@@ -77,7 +77,7 @@ class Equilibrium:
         return {
             hold.name: (T / grip, T * grip)
             for hold in self.moorings
-            if hold.type == "rope" and "grip" in hold.readings
+            if "grip" in hold.readings
             for T, grip in [(hold.readings["tension"][0], hold.readings["grip"][0])]
         }
 

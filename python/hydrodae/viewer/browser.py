@@ -209,7 +209,7 @@ def _encode(command: list[str], frames: Iterator[bytes], path: Path) -> None:
         subprocess.Popen(command, stdin=subprocess.PIPE, stderr=said) as encoder,
     ):
         assert encoder.stdin is not None
-        with suppress(BrokenPipeError):  # ffmpeg has ended: its code and words tell why
+        with suppress(BrokenPipeError):  # ffmpeg has ended: its code and words show why
             for frame in frames:
                 encoder.stdin.write(frame)
             encoder.stdin.close()

@@ -57,6 +57,10 @@ def _usual(name: str) -> bool:
     return any(fnmatchcase(name, pattern) for pattern in USUAL)
 
 
+#: Groups of channels that are about one thing, whatever the channel.
+_ABOUT = {"sea": ("sea",)}
+
+
 def _curves(
     name: str,
     values: NDArray[np.float64],
@@ -65,15 +69,13 @@ def _curves(
     centers: Mapping[str, NDArray[np.float64]],
 ) -> Iterator[Curve]:
     kind, owner, *rest = name.split("/")
-    about = (owner, *owners.get(f"{kind}/{owner}", ()))
+    about = _ABOUT.get(kind, (owner, *owners.get(f"{kind}/{owner}", ())))
     quantity = "/".join(rest).replace("_", " ") or owner
     if unit.startswith("rad"):
         values, unit = np.degrees(values), unit.replace("rad", "deg")
     if name == f"bodies/{owner}/position":
         values, quantity = values - centers[owner], "displacement"
     title = quantity if kind in ("bodies", "sea") else f"{owner}: {quantity}"
-    if kind == "sea":
-        about = ("sea",)
     if values.ndim == 1:
         yield Curve(name, about, title, quantity, unit, values)
         return

@@ -39,7 +39,7 @@ def write_paraview(stage: Stage, frame: Frame, folder: Path) -> list[Path]:
     Returns
     -------
     list of Path
-        What was written; `README.txt` tells the numbers of the bodies and lines.
+        What was written; `README.txt` lists the numbers of the bodies and lines.
     """
     claim_folder(folder)
     written = []

@@ -51,7 +51,7 @@ def _waves(source: Source, depth: float, gravity: float) -> tuple[np.ndarray[Any
 
 
 def seabed(sea: Sea | None, tables: Mapping[str, Any], lines: Sequence[Line]) -> float | None:
-    """Height of the seabed [m]: of the water, else of what lies on it; None if nothing tells."""
+    """Height of the seabed [m]: of the water, else of what lies on it; None if unknown."""
     if sea is not None and np.isfinite(sea.depth):
         return -sea.depth
     heights = []

@@ -134,7 +134,7 @@ def open_source(
     ----------
     what : Results, path of a results or a case file, Case or Scene
     case : Case, Scene or path, optional
-        Case of the results, where the file that they tell is no longer there.
+        Case of the results, where the file that they name is no longer there.
     first, last : float
         Times to look at [s].
 
@@ -166,5 +166,5 @@ def _case_of(results: Results) -> Case:
     except CaseError as error:
         raise CaseError(
             f"{results.path}: the case that it is of cannot be read from {folder}: {error}; "
-            "tell where it is with --case (case=)"
+            "give its place with --case (case=)"
         ) from error

@@ -51,10 +51,13 @@ def make_spots(
                 )
             else:
                 spots += _attached(line, force, water)
+    markers = {}
     for marker in tables.get("marker", []):
-        places = places_of(source, known, marker["body"], marker["point"])
-        spots.append(Spot(marker["name"], "marker", (marker["body"],), places))
-    spots += [_gauge(source, gauge, spots) for gauge in tables.get("gauge", [])]
+        name, body = marker["name"], marker["body"]
+        places = places_of(source, known, body, marker["point"])
+        markers[name] = Spot(name, "marker", (body,), places)
+    spots += markers.values()
+    spots += [_gauge(source, gauge, markers) for gauge in tables.get("gauge", [])]
     return spots, notes
 
 
@@ -91,10 +94,10 @@ def _on(line: Line, name: str, kind: str, along: float) -> Spot:
     return Spot(name, kind, line.bodies, places)
 
 
-def _gauge(source: Source, gauge: Mapping[str, Any], spots: Sequence[Spot]) -> Spot:
+def _gauge(source: Source, gauge: Mapping[str, Any], markers: Mapping[str, Spot]) -> Spot:
     """At the surface, above or beneath its marker."""
     places = np.zeros((len(source.time), 3))
-    carrier = next((s for s in spots if s.kind == "marker" and s.name == gauge.get("marker")), None)
+    carrier = markers.get(gauge.get("marker", ""))
     if carrier is not None:
         places[:, :2] = carrier.points[:, :2]
     else:

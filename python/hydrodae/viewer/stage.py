@@ -91,7 +91,7 @@ class Line:
     points : (n, k, 3) array
         Its shape over time, world [m].
     load : (n, 1) or (n, k - 1) array, or None
-        Tension, or load, of all of it or of each piece [N]; None if the results do not tell.
+        Tension, or load, of all of it or of each piece [N]; None if the results lack it.
     arc : (k,) array or None
         Unstretched lengths from end A of the points of a mooring line [m], where they are known.
     """

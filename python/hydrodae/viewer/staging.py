@@ -73,7 +73,7 @@ def make_stage(
 
 
 def _thin_out(source: Source, step: float | None) -> list[str]:
-    """Leave samples out that are nearer than `step`, or too many; tells so."""
+    """Leave samples out that are nearer than `step`, or too many; return notes."""
     if not isinstance(source, Run) or len(source.results.time) < 2:
         return []
     all_times = source.results.time

@@ -1,4 +1,4 @@
-/// Mistakes in [sea], [[wave]] and the radiation rungs are told with their place.
+/// Mistakes in [sea], [[wave]] and the radiation rungs are reported with their place.
 
 #include "hydrodae/io/case_reader.h"
 #include "support.h"

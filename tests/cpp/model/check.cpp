@@ -265,7 +265,7 @@ TEST_CASE("the memory fit with the fewest states that covers what moves") {
                  "'heave' lacks float.surge, float.sway, float.roll, float.pitch, "
                  "float.yaw"));
   w.database->fits.clear();
-  CHECK(contains(verdict(w.scene), "hydro.radiation: hydro.h5 holds no exponential fit"));
+  CHECK(contains(verdict(w.scene), "hydro.database: hydro.h5 holds no exponential fit"));
 }
 
 TEST_CASE("a summary shows what is in the scene") {
@@ -278,8 +278,12 @@ TEST_CASE("a summary shows what is in the scene") {
 TEST_CASE("model errors are located by the longest key that is known") {
   Scene scene;
   scene.path = "case.toml";
-  scene.positions = {{"joint.j", "case.toml:7:1"}, {"joint.j.axis", "case.toml:9:1"}};
-  CHECK(located(scene, ModelError("joint.j.axis", "x")) == "case.toml:9:1: x");
-  CHECK(located(scene, ModelError("joint.j.initial.angle_deg", "x")) == "case.toml:7:1: x");
-  CHECK(located(scene, ModelError("body.b", "x")) == "case.toml: x");
+  scene.places = {{"joint.j", {"case.toml", 7, 1}}, {"joint.j.axis", {"case.toml", 9, 1}}};
+  const CaseError axis = located(scene, ModelError("joint.j.axis", "x"));
+  CHECK(std::string(axis.what()) == "case.toml:9:1: x");
+  CHECK(axis.key == "joint.j.axis");
+  CHECK(axis.place.line == 9);
+  CHECK(axis.fault == "x");
+  CHECK(located(scene, ModelError("joint.j.initial.angle_deg", "x")).place.line == 7);
+  CHECK(std::string(located(scene, ModelError("body.b", "x")).what()) == "case.toml: x");
 }

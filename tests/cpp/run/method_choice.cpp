@@ -102,7 +102,7 @@ TEST_CASE("many steps in a row that are short against the motion call for anothe
   for (int k = 0; k < 39; ++k)
     choice.accept(1e-3, 10.0, true);
   CHECK_FALSE(choice.labours());
-  choice.accept(1e-9, 10.0, false); // cut short: tells nothing
+  choice.accept(1e-9, 10.0, false); // cut short: no evidence
   CHECK_FALSE(choice.labours());
   choice.accept(1e-3, 10.0, true);
   CHECK(choice.labours());

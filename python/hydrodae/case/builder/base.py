@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from hydrodae.case import Case
-from hydrodae.case.builder.entries import Entry, Teller, check_entry, hint, make_entry
+from hydrodae.case.builder.entries import Calls, Entry, check_entry, hint, make_entry
 from hydrodae.case.case import to_toml
 from hydrodae.case.tables import Table, owners_of, tables
 from hydrodae.errors import CaseError
@@ -45,7 +45,7 @@ class SceneBase:
             The scene cannot be used; the message names the call that is wrong.
         """
         return Case(
-            self.to_toml(), directory=self._directory, values=values, tell=Teller(self._entries)
+            self.to_toml(), directory=self._directory, values=values, tell=Calls(self._entries)
         )
 
     def save(self, path: str | os.PathLike[str]) -> Case:
@@ -80,7 +80,7 @@ class SceneBase:
         """Check one entry by itself and keep it; returns its name, if it has one."""
         entry = make_entry(table, kind, keys)
         if not table.is_list and any(entry.call == other.call for other in self._entries):
-            raise CaseError(f"{entry.call}: called before; a case has one {table.header}")
+            raise CaseError(f"called before; a case has one {table.header}", file=entry.call)
         check_entry(entry, kind, keys)
         self._entries.append(entry)
         return keys.get("name")

@@ -9,7 +9,7 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.bem.shapes import hydrostatics
+from hydrodae.hdb.bem.shapes import NoWaterError, hydrostatics
 
 Array = NDArray[np.float64]
 
@@ -114,5 +114,5 @@ def immersed(panels: Array) -> Array:
         try:
             hydrostatics(below, np.zeros(3))
         except DatabaseError as other:
-            raise (other if "inwards" in str(error) else error) from None
+            raise (other if isinstance(error, NoWaterError) else error) from None
     return below

@@ -82,8 +82,12 @@ def _problems(
     return problems
 
 
+#: Methods of Capytaine whose results need the strengths of the sources for pressures.
+_KEEPS_SOURCES = ("indirect",)
+
+
 def _results(solver: Any, problems: list[Any]) -> list[Any]:
-    keep = solver.method == "indirect"
+    keep = solver.method in _KEEPS_SOURCES
     return [solver.solve(p, keep_details=keep, _check_wavelength=False) for p in problems]
 
 

@@ -23,6 +23,10 @@ LONGEST = 2000.0
 LEAK = 0.01
 
 
+class NoWaterError(DatabaseError):
+    """A surface displaces no water: it is dry, or inside out."""
+
+
 def sphere(size: float, *, radius: float, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Array:
     """Wetted part of a sphere about (x, y, z), with its exact water plane area and volume.
 
@@ -223,7 +227,7 @@ def hydrostatics(panels: ArrayLike, point: ArrayLike) -> Hydrostatics:
         shown = ", ".join(f"{v:.5g}" for v in by_axis)
         raise DatabaseError(f"the surface has holes: its volume by x, y, z is {shown} m3")
     if volume <= 0.0:
-        raise DatabaseError(
+        raise NoWaterError(
             "the surface displaces no water: it is dry, or its normals point inwards"
         )
     if np.abs(by_axis - volume).max() > LEAK * volume:

@@ -18,7 +18,7 @@ from hydrodae.hdb.relations.headings import Headings
 Array = NDArray[np.float64]
 #: Steps above which headings that cannot test themselves are warned of [rad].
 WIDE = np.radians(36.0)
-#: Share of the largest force over the headings that is a warning, and that is told.
+#: Share of the largest force over the headings that is a warning, and that is reported.
 MUCH, TOLD = 0.05, 0.01
 #: Forces below this share of the largest of their kind vanish by symmetry.
 NONE = 0.02

@@ -214,7 +214,7 @@ def _heave(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
         db.rho * hs.displaced_volume + _total_mass(db, body, "heave", wave.row)
     )
     area = max(hs.waterplane_area, 0.0)
-    # the area may be what is wrong: the force, and the size of the added mass, tell long waves, too
+    # the area may be what is wrong: the force and the added mass show long waves, too
     if max(k33, abs(force)) < 2.0 * inertia or wave.k * min(np.sqrt(area), _size(db, body)) > 0.5:
         return []
     # the water's vertical acceleration falls towards the keel, in shallow water to nothing

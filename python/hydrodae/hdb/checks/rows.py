@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 EMPTY = 1e-9
 #: Share of the largest added mass of its kind from which a negative one is no noise.
 NOISE = 0.05
-#: Longest k times the width of a hull, and fewest frequencies there, by which B tells the unit.
+#: Longest k times the width of a hull, and fewest frequencies there, by which B shows the unit.
 LONG, FEWEST = 0.8, 2
 #: Change of A over the frequencies, as a share of the largest, that takes damping: of some motion,
 #: and of a single one, whose B may be too small for the digits of a file.
@@ -72,7 +72,7 @@ def _signs(db: HydroDatabase) -> list[Finding]:
     middle = np.median(np.einsum("wii->wi", db.added_mass), axis=0)
     lowest = np.maximum(middle, np.diag(db.added_mass_inf))
     goes = np.array([_goes(c) for c in db.coordinates])
-    # where B has the wrong sign as well, that is told of B
+    # where B has the wrong sign as well, that is reported of B
     told = np.median(np.einsum("wii->wi", db.radiation_damping), axis=0) < 0.0
     wrong = []
     for kind in (goes, ~goes):

@@ -34,7 +34,7 @@ FEWEST, LONG, LONGER = 2, 0.3, 0.8
 #: A_11 over what diffraction says: 0.97 to 1.14 in 24 tables; over the whole force: 0.14 to 0.91.
 DIFFRACTION, FORCE = 2.0, (0.004, 1.5)
 #: Damping of the hull over that of the table: in 24 tables 1.0 to 2.1 of surge and sway, 0.83 to
-#: 1.04 of heave. `UNKNOWN`: where no file tells the volume, and A_11 stands for it.
+#: 1.04 of heave. `UNKNOWN`: where no file gives the volume, and A_11 stands for it.
 DAMPING, HEAVE, UNKNOWN = 5.0, 3.0, 60.0
 #: Least sum of the added masses over rho V, and largest added mass over rho R^3.
 LEAST_MASS, LARGEST_MASS = 0.3, 100.0

@@ -23,8 +23,8 @@ ALONE = 5.0
 AROUND = 6
 #: Forces below this share of the largest of their kind vanish by symmetry.
 NONE = 1e-3
-#: A force is scrambled if half of its values are off by this share of those around them (0.16 is
-#: the most in tables of five codes), and if it is this share of the largest of its kind.
+#: A force is scrambled if half of its values are off by this share of those around them, and if it
+#: is this share of the largest of its kind. In tables of five codes the most is 0.16.
 SCRAMBLED, COUNTS = 0.4, 0.02
 #: Frequencies in the band that it takes to judge that.
 ENOUGH = 8

@@ -68,7 +68,7 @@ def kept_tables(dataset: xr.Dataset) -> dict[str, SourceTable]:
         if both.dtype.kind not in "fiuc":
             continue
         axes = {d: _axis(variable[d].values) for d in dims if d in variable.coords}
-        kind = complex if both.dtype.kind == "c" else float
+        kind = complex if np.iscomplexobj(both) else float
         found[str(name)] = SourceTable(np.asarray(both, dtype=kind), dims, axes)
     return found
 

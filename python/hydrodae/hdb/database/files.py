@@ -19,6 +19,7 @@ from hydrodae.hdb.database.layout import (
     BODY_NUMBERS,
     FIT,
     KERNEL,
+    REAL,
     TABLES,
     Entry,
     read_group,
@@ -148,17 +149,16 @@ def _write_tables(f: h5py.File, db: Tables, *, kernel: bool, single: bool) -> No
     for name in ROOT_TEXT:
         f.attrs[name] = str(getattr(db, name))
     f.attrs["repairs"] = "\n".join(db.repairs)
-    real, cplx = (np.float32, np.complex64) if single else (np.float64, np.complex128)
     for name, entry in TABLES.items():
         value = getattr(db, name.rpartition("/")[2])
-        if entry.kind != "text" and len(entry.dims) == 3:
-            value = value.astype(cplx if entry.kind == "complex" else real)
+        if not entry.kind.is_text and len(entry.dims) == 3:
+            value = value.astype(entry.kind.number(single))
         write_dataset(f, name, entry, value)
     f["added_mass_inf"].attrs["origin"] = db.added_mass_inf_origin
     split = "froude_krylov + diffraction" if db.excitation_split else "total only"
     f["excitation"].attrs["split"] = split
     if kernel and db.kernel is not None:
-        values = {"kernel": db.kernel.values.astype(real)}
+        values: dict[str, Any] = {"kernel": db.kernel.values.astype(REAL.number(single))}
         _write_group(f.create_group("radiation_kernel"), KERNEL, db.kernel, values)
 
 

@@ -19,8 +19,33 @@ from hydrodae.errors import DatabaseError
 
 MASS, RATE, FORCE = "kg, kg m, kg m2", "N s/m, N s, N m s", "N/m, N m/m"
 STIFFNESS = "N/m, N, N m"
-#: What a dataset may hold, in NumPy's letters, and how an error names it.
-KINDS = {"text": ("SO", "text"), "real": ("fiu", "numbers"), "complex": ("fiuc", "numbers")}
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What a dataset may hold, in NumPy's letters, how an error names it, and as what it is read.
+
+    `types` are those of numbers in double and single precision; labels have none.
+    """
+
+    letters: str
+    called: str
+    types: tuple[type, type] | None = None
+
+    @property
+    def is_text(self) -> bool:
+        """Whether it holds labels."""
+        return self.types is None
+
+    def number(self, single: bool = False) -> type:
+        """Type of its numbers; labels have none."""
+        assert self.types is not None
+        return self.types[single]
+
+
+TEXT = Kind("SO", "text")
+REAL = Kind("fiu", "numbers", (np.float64, np.float32))
+COMPLEX = Kind("fiuc", "numbers", (np.complex128, np.complex64))
 
 
 @dataclass(frozen=True)
@@ -28,38 +53,38 @@ class Entry:
     """A dataset: its dimensions (letters, or lengths that never differ), kind and unit."""
 
     dims: tuple[str | int, ...]
-    kind: str = "real"
+    kind: Kind = REAL
     unit: str = ""
 
 
 TABLES = {
-    "coordinates": Entry(("n",), "text"),
+    "coordinates": Entry(("n",), TEXT),
     "omega": Entry(("w",), unit="rad/s"),
     "added_mass": Entry(("w", "n", "n"), unit=MASS),
     "radiation_damping": Entry(("w", "n", "n"), unit=RATE),
     "added_mass_inf": Entry(("n", "n"), unit=MASS),
     "added_mass_inf_std": Entry(("n", "n"), unit=MASS),
     "heading": Entry(("h",), unit="rad"),
-    "excitation/froude_krylov": Entry(("w", "h", "n"), "complex", FORCE),
-    "excitation/diffraction": Entry(("w", "h", "n"), "complex", FORCE),
+    "excitation/froude_krylov": Entry(("w", "h", "n"), COMPLEX, FORCE),
+    "excitation/diffraction": Entry(("w", "h", "n"), COMPLEX, FORCE),
 }
 BODY = {
     "hydrostatic_stiffness": Entry((6, 6), unit=STIFFNESS),
     "mesh": Entry(("m", 4, 3), unit="m"),
 }
 KERNEL = {
-    "inputs": Entry(("i",), "text"),
-    "outputs": Entry(("o",), "text"),
+    "inputs": Entry(("i",), TEXT),
+    "outputs": Entry(("o",), TEXT),
     "time": Entry(("t",), unit="s"),
     "kernel": Entry(("t", "o", "i"), unit=STIFFNESS),
     "added_mass_inf": Entry(("o", "i"), unit=MASS),
 }
 FIT = {
-    "inputs": Entry(("i",), "text"),
-    "outputs": Entry(("o",), "text"),
-    "poles": Entry(("p",), "complex"),
-    "input_matrix": Entry(("p", "i"), "complex"),
-    "output_matrix": Entry(("o", "p"), "complex"),
+    "inputs": Entry(("i",), TEXT),
+    "outputs": Entry(("o",), TEXT),
+    "poles": Entry(("p",), COMPLEX),
+    "input_matrix": Entry(("p", "i"), COMPLEX),
+    "output_matrix": Entry(("o", "p"), COMPLEX),
     "added_mass_inf": Entry(("o", "i"), unit=MASS),
 }
 #: Numbers of a body that are attributes of its group.
@@ -113,7 +138,7 @@ def read_numbers(group: h5py.Group, name: str, shape: tuple[int, ...]) -> Any:
 
 def write_dataset(group: h5py.Group, name: str, entry: Entry, value: Any) -> None:
     """Write a dataset as it is declared; labels as texts of 32 characters."""
-    if entry.kind == "text":
+    if entry.kind.is_text:
         group.create_dataset(name, data=_labels(value))
         return
     data = np.asarray(value)
@@ -128,9 +153,8 @@ def _read(group: h5py.Group, name: str, entry: Entry, sizes: dict[str, int]) -> 
     node = group[name]
     if not isinstance(node, h5py.Dataset) or node.shape is None:
         raise DatabaseError(f"{where}: expected a dataset")
-    letters, called = KINDS[entry.kind]
-    if node.dtype.kind not in letters:
-        raise DatabaseError(f"{where}: expected {called}, found {node.dtype}")
+    if node.dtype.kind not in entry.kind.letters:
+        raise DatabaseError(f"{where}: expected {entry.kind.called}, found {node.dtype}")
     if len(node.shape) == len(entry.dims):
         for dim, length in zip(entry.dims, node.shape, strict=True):
             if isinstance(dim, str):
@@ -140,11 +164,11 @@ def _read(group: h5py.Group, name: str, entry: Entry, sizes: dict[str, int]) -> 
         text = ", ".join(map(str, wanted)) + ("," if len(wanted) == 1 else "")
         raise DatabaseError(f"{where}: expected shape ({text}), found {node.shape}")
     values = np.asarray(node[()])
-    if entry.kind == "text":
+    if entry.kind.is_text:
         return tuple(v.decode("ascii") if isinstance(v, bytes) else str(v) for v in values)
     if not np.all(np.isfinite(values)):
         raise DatabaseError(f"{where}: holds values that are not finite")
-    return values.astype(complex if entry.kind == "complex" else float)
+    return values.astype(entry.kind.number())
 
 
 def _labels(labels: Any) -> np.ndarray[Any, Any]:

@@ -23,7 +23,7 @@ SYMMETRIC = 0.3
 TIGHTENED = 4
 """Rounds of fits of the blocks."""
 SAFE = 0.94
-"""Share of a goal that a fit must meet, as errors are told against tables with noise."""
+"""Share of a goal that a fit must meet, as errors are measured against tables with noise."""
 SHARED = 0.88
 """Share of a uniform goal that each block must meet at first: largest errors may add up."""
 NEAR = 1.3

@@ -198,7 +198,7 @@ def uncoupled_groups(
 
 
 def in_band(omega: Array, band: tuple[float, float]) -> npt.NDArray[np.bool_]:
-    """Tell which frequencies lie in the band."""
+    """Return which frequencies lie in the band."""
     return (omega >= band[0] - 1e-9) & (omega <= band[1] + 1e-9)
 
 

@@ -17,7 +17,7 @@ from hydrodae.hdb.memory.band import default_band
 from hydrodae.hdb.memory.blocks import SYMMETRIC, FittedGroup, fit_group, sizes
 from hydrodae.hdb.memory.clock import SEARCH, TIME_LIMIT, Clock
 from hydrodae.hdb.memory.data import ImpedanceData, RadiationData
-from hydrodae.hdb.memory.goal import Goal, Progress, Quality, measure, stored_quality
+from hydrodae.hdb.memory.goal import METHODS, Goal, Progress, Quality, measure, stored_quality
 from hydrodae.hdb.memory.model import ExponentialMemory
 from hydrodae.hdb.memory.modes import IntArray, Searches
 from hydrodae.hdb.memory.noise import noise
@@ -36,9 +36,11 @@ UNIFORM_WEIGHT = 10.0
 """Most weight of the band where the goal is one error of H over its largest entry."""
 
 NOISE_TIMES, NOISE_STEADY, NOISE_MOST = 3.0, 1.5, 0.01
-"""A fit is as near as the noise of the tables lets it where its weighted error in the band is not
-above so many times that noise, its running mean over neighbouring frequencies (a misfit they share
-is no noise) not above so many times, and the error not above so much."""
+"""Bounds of a fit that is as near as the noise of the tables lets it.
+
+They are its weighted error in the band over that noise; the running mean of this error over
+neighbouring frequencies (a misfit that they share is no noise) over the noise; and the error.
+"""
 PANELS = 2e-3
 """Weighted error in the band that no table of panels is surer of, noise or none."""
 
@@ -70,13 +72,14 @@ def fit_memory(
     modes, refitted all together, pruned to the fewest that meet the targets, and made passive with
     all parameters free. Poles, residues and A_inf are all unknown, H(0) = 0 is a row of the fit,
     nothing is interpolated. Groups of more than 12 coupled coordinates start from a Hankel
-    realisation of K(t) instead (`hydrodae.hdb.memory.hankel`). Coordinates that do not radiate into
-    each other (surge and heave of a body of revolution, motion in and across a plane of symmetry)
-    are fitted apart, and so are the blocks of an array whose tables are symmetric (equal bodies
-    that rotations and mirrors map onto each other, `hydrodae.hdb.memory.symmetry`); tables that
-    miss the symmetry by less than 0.3 of the target are symmetrised. Where the tables would give
-    energy to the body (negative eigenvalues of B), the nearest ones that do not are fitted; errors
-    are told against the tables as they stand. Deterministic.
+    realisation of K(t) instead (`hydrodae.hdb.memory.hankel`).
+
+    Coordinates that do not radiate into each other are fitted apart: surge and heave of a body of
+    revolution, motion in and across a plane of symmetry. So are the blocks of an array whose tables
+    are symmetric, where rotations and mirrors map equal bodies onto each other
+    (`hydrodae.hdb.memory.symmetry`). Tables that miss the symmetry by less than 0.3 of the target
+    are symmetrised. Where the tables would give energy to the body (negative eigenvalues of B), the
+    nearest ones that do not are fitted. Errors refer to the tables as they stand. Deterministic.
 
     Parameters
     ----------
@@ -118,16 +121,18 @@ def fit_memory(
     Returns
     -------
     ExponentialMemory
-        Its `report` holds n_states, passive, min_eig_re_h_relative, max_real_pole, h_error_band and
-        h_error_all (rms relative, scaled entries), h_error_peak (as `uniform`), h_error_outputs,
-        h_zero, data_min_eig_relative and data_min_eig_omega (lowest eigenvalue of the tables' B
-        over the largest, and where), data_min_eig_band and data_min_eig_band_omega (in the band),
-        target_met, time_limited (the search ended at `time_limit`), band, weights, method,
-        dropped_inputs (no radiation: memory zero, A_inf the mean added mass in the band), groups,
-        neglected_coupling, symmetry (groups fitted in blocks), symmetry_left_out (rms share of Z
-        that breaks it), noise (of the tables in the band, as the weighted errors,
-        `hydrodae.hdb.memory.noise`), as_near_as_noise (the target is met, or missed by no more than
-        that or panels explain).
+        Its `report` holds
+
+        - n_states, passive, min_eig_re_h_relative, max_real_pole, band, weights, method, groups,
+          neglected_coupling, target_met, time_limited (the search ended at `time_limit`);
+        - h_error_band and h_error_all (rms relative, scaled entries), h_error_peak (as `uniform`),
+          h_error_outputs, h_zero;
+        - data_min_eig_relative and data_min_eig_omega (lowest eigenvalue of the tables' B over the
+          largest, and where), data_min_eig_band and data_min_eig_band_omega (in the band);
+        - dropped_inputs (no radiation: memory zero, A_inf the mean added mass in the band);
+        - symmetry (groups fitted in blocks), symmetry_left_out (rms share of Z that breaks it);
+        - noise (of the tables in the band, as the weighted errors, `hydrodae.hdb.memory.noise`),
+          as_near_as_noise (the target is met, or missed by no more than noise or panels explain).
 
     Raises
     ------
@@ -145,7 +150,7 @@ def fit_memory(
         if outputs is None
         else inputs + tuple(label for label in outputs if label not in inputs)
     )
-    if method not in ("auto", "modes", "hankel"):
+    if method not in METHODS:
         raise DatabaseError(f"memory fit: method {method!r}: expected auto, modes or hankel")
     if uniform is not None and not uniform > 0.0:
         raise DatabaseError(f"memory fit: uniform {uniform:g}: expected a number > 0")
@@ -161,7 +166,7 @@ def fit_memory(
         target_outside,
         max_states,
         uniform,
-        method,
+        METHODS[method],
     )
     groups, neglected = prepare.uncoupled_groups(data, COUPLING)
     say = progress or (lambda message: None)
@@ -332,7 +337,7 @@ def _report(
 
 
 def _noise(fits: Sequence[GroupFit], goal: Goal) -> dict[str, Any]:
-    """Tell the noise of the tables in the band, and whether the fit misses its target by that only.
+    """Return the noise of the tables in the band, and whether only noise parts fit and target.
 
     No fit of few states is nearer to the tables than their noise is to a smooth function.
     """
@@ -344,7 +349,7 @@ def _noise(fits: Sequence[GroupFit], goal: Goal) -> dict[str, Any]:
 
 
 def _near(found: Quality, noise: float, goal: Goal) -> bool:
-    """Tell whether a fit meets its goal, or misses it by no more than the tables are sure of."""
+    """Return whether a fit meets its goal, or misses it by no more than the tables are sure of."""
     most = min(NOISE_TIMES * noise, NOISE_MOST)
     if found.steady > max(NOISE_STEADY * noise, goal.target):
         most = 0.0
@@ -354,7 +359,7 @@ def _near(found: Quality, noise: float, goal: Goal) -> bool:
 def _symmetry(
     labels: Sequence[str], groups: Sequence[IntArray], made: Sequence[FittedGroup]
 ) -> dict[str, Any]:
-    """Tell which symmetry of the tables was used, and what of them it leaves out."""
+    """Return which symmetry of the tables was used, and what of them it leaves out."""
     used = [
         (", ".join(labels[i] for i in group), fit)
         for group, fit in zip(groups, made, strict=True)

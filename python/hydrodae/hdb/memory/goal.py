@@ -36,6 +36,21 @@ class Quality:
 
 
 @dataclass(frozen=True)
+class Method:
+    """Ways of fitting that may be tried."""
+
+    by_modes: bool
+    by_realisation: bool
+
+
+METHODS = {
+    "auto": Method(by_modes=True, by_realisation=True),
+    "modes": Method(by_modes=True, by_realisation=False),
+    "hankel": Method(by_modes=False, by_realisation=True),
+}
+
+
+@dataclass(frozen=True)
 class Goal:
     """What a fit must reach.
 
@@ -52,7 +67,7 @@ class Goal:
     uniform
         If not None, the goal is another: the largest error of H in the band over its largest entry.
     method
-        auto, modes or hankel.
+        What may be tried.
     """
 
     band: tuple[float, float]
@@ -61,7 +76,7 @@ class Goal:
     target_outside: float
     max_states: int | None
     uniform: float | None = None
-    method: str = "auto"
+    method: Method = METHODS["auto"]
 
     @property
     def floor(self) -> float:
@@ -69,7 +84,7 @@ class Goal:
         return UNIFORM_FLOOR * (self.uniform or 0.0)
 
     def met(self, found: Quality, share: float = 1.0) -> bool:
-        """Tell whether the errors are below `share` of their targets."""
+        """Return whether the errors are below `share` of their targets."""
         return self.miss(found) <= share
 
     def miss(self, found: Quality) -> float:

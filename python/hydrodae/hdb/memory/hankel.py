@@ -1,6 +1,6 @@
 """Rank-one modes from a Hankel realisation of K(t): for many coordinates and travel times.
 
-K(j dt), j = 0, 1, ..., scaled, stands in a block Hankel matrix whose singular vectors give a system
+K(j dt), j = 0, 1, ..., scaled, stands in a block Hankel matrix. Its singular vectors give a system
 x_{j+1} = A x_j, K_j = C A^j B of the fewest states for an error of K (eigensystem realisation). The
 matrix is symmetric as every K is, so that the residue of an eigenvalue is c b^T with c parallel to
 b: a mode (`hydrodae.hdb.memory.modes`). The modes are refitted to Z = B + i omega A and made

@@ -104,7 +104,7 @@ class Modes:
 
     @property
     def real(self) -> npt.NDArray[np.bool_]:
-        """Tell which poles are real."""
+        """Return which poles are real."""
         return is_real(self.poles)
 
     @property

@@ -1,6 +1,6 @@
 r"""Noise of tables: what of H no smooth function of the frequency follows.
 
-A smooth H is nearly a polynomial over a few neighbouring frequencies, and noise is none. Divided
+A smooth H is nearly a polynomial over a few neighbouring frequencies, and noise is not. Divided
 differences of order n over n + 1 frequencies, their coefficients scaled to unit length, take away
 the polynomial and leave white noise as it is. Curvature leaves them with rising order, noise does
 not: the least of several orders is what the tables are uncertain by, at least.
@@ -46,7 +46,7 @@ def noise(problem: Problem, added_mass: Array, band: tuple[float, float]) -> flo
         left = np.einsum("wk,wke->we", coefficients, value[window])
         middle = window[:, order // 2]
         part = (weight[middle] * left)[inside[middle]]
-        # windows whose middle is in the band; the first of the table have none
+        # windows whose middle is in the band; not so for the first of the table
         share = float(inside.sum()) / max(1.0, float(inside[middle].sum()))
         if part.size:
             found.append(float(np.linalg.norm(part)) * np.sqrt(share) / size)

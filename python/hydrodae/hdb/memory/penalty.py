@@ -68,7 +68,7 @@ def press(
     problem
         Data of the fit.
     good
-        Tells whether the error of the fit is small enough: the search ends there.
+        Returns whether the error of the fit is small enough: the search ends there.
     iterations
         Most steps.
 

@@ -60,9 +60,9 @@ def fit_problem(
     say
         Called with one line per stage.
     """
-    if goal.method == "hankel":
+    if not goal.method.by_modes:
         return _realised(problem, goal, cap, say)[0]
-    if goal.method == "auto" and many:
+    if goal.method.by_realisation and many:
         return _fit_many(problem, goal, cap, say)
     poles, least = rich_poles(problem, goal, say)
     candidates = list(poles.values())[-3:]
@@ -78,7 +78,7 @@ def fit_problem(
             return kept[-1]
     if not kept and least <= NOISE:
         kept = _tamed(problem, goal, cap, poles, say)
-    if not kept and goal.method == "auto":
+    if not kept and goal.method.by_realisation:
         fit, passive = _realised(problem, goal, cap, say)
         kept = [fit] if passive else []
     if not kept:
@@ -93,7 +93,7 @@ def fit_problem(
 def _realised(
     problem: Problem, goal: Goal, cap: int | None, say: Progress
 ) -> tuple[GroupFit, bool]:
-    """Fit by a realisation of K(t); tell whether it is passive."""
+    """Fit by a realisation of K(t); return the fit and whether it is passive."""
     made = fit_hankel(problem, goal, cap, say)
     assert made is not None
     return GroupFit(made[0], problem, made[1], HANKEL), made[2]

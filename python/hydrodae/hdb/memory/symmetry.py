@@ -1,8 +1,8 @@
 """Symmetry of an array, found in its tables: coordinates in which Z falls into blocks.
 
 Equal bodies that permutations, rotations and mirrors map onto each other leave Z(w) unchanged:
-P Z P^T = Z for the matrix P of each such operation, at every frequency. Symmetric matrices X with
-X Z(w) = Z(w) X for all w are then more than multiples of the identity, and the eigenvectors of a
+P Z P^T = Z for the matrix P of each such operation, at every frequency. The symmetric matrices X
+with X Z(w) = Z(w) X for all w are then more than multiples of the identity. The eigenvectors of a
 random one of them, collected by equal eigenvalues, are bases V_b of independent blocks V_b^T Z V_b.
 Blocks that the remaining X couple (the two partners of a two-dimensional representation) are equal
 after a rotation of their bases and are fitted once. Nothing but the tables is asked: no layout.

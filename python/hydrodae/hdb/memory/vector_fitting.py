@@ -45,7 +45,7 @@ class Samples:
 
 
 def is_real(poles: ComplexArray) -> npt.NDArray[np.bool_]:
-    """Tell which poles are real (one state); the others stand for a conjugate pair (two states)."""
+    """Return which poles are real: one state, where the others stand for a conjugate pair."""
     return np.asarray(poles.imag == 0.0)
 
 
@@ -194,7 +194,7 @@ def _half(zeros: ComplexArray) -> ComplexArray:
 
 
 def limited(poles: ComplexArray, grid: Array, damping: Array) -> ComplexArray:
-    """Reflect poles to the left and hold them where the data can tell something of them.
+    """Reflect poles to the left and hold them where the data determine them.
 
     -Re p is at least `damping` (nw,) [1/s] at the frequencies `grid` (nw,) [rad/s], which keeps
     peaks from growing between the samples, and at most 5 times the last of them; Im p is at most

@@ -10,7 +10,7 @@ import numpy as np
 PASSIVE_LIMIT = -1e-4
 """A fit is passive when the smallest eigenvalue of Re H is above this share of the largest."""
 NOISY = -1e-3
-"""Tables whose B has eigenvalues below this share of the largest are told to be noisy."""
+"""Tables whose B has eigenvalues below this share of the largest are reported as noisy."""
 CHECKS = ("passive", "target")
 """What a fit may miss, by the names under which it can be accepted all the same."""
 
@@ -18,7 +18,7 @@ CHECKS = ("passive", "target")
 def missed(report: Mapping[str, Any]) -> dict[str, str]:
     """Return what the fit of this report missed: name in `CHECKS`, and a sentence without subject.
 
-    Fits of other sources, whose reports tell nothing, miss nothing.
+    Fits of other sources, whose reports are empty, miss nothing.
     """
     found: dict[str, str] = {}
     if not report.get("passive", True):

@@ -233,10 +233,9 @@ def _state_points(
         known = data.reference_points.get(old)
         if old in data.assumed_points:
             known = None
-            data.findings = [f for f in data.findings if not f.message.startswith(f"{old}: the f")]
         if known is not None and not np.allclose(known, point, atol=1e-6):
             raise DatabaseError(
                 f"the source says the moments of {name!r} are about {known.tolist()}, "
                 f"not {point.tolist()}"
             )
-        data.reference_points[old] = point
+        data.state_point(old, point)

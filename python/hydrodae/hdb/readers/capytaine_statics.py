@@ -13,7 +13,7 @@ from hydrodae.hdb.database.coordinates import DOFS, bodies_of
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers import nemoh_hydrostatics as nh
-from hydrodae.hdb.readers.reference import reference_by_statics
+from hydrodae.hdb.readers.reference import assume_by_statics
 from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
 
 Array = NDArray[np.float64]
@@ -45,8 +45,7 @@ def attach_bodies(data: SourceData, ds: xr.Dataset, raw: list[str], path: Path) 
                 )
             )
             if point is None:
-                data.reference_points[name] = reference_by_statics(data, name, near)
-                data.assumed_points.add(name)
+                assume_by_statics(data, name, near)
         else:
             text = f"{name}: not in the file, or incomplete"
             data.findings.append(without_hydrostatics(text, [name]))

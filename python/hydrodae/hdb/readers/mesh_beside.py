@@ -85,13 +85,12 @@ def statics_of_file(
     if wrong is None and point is None:
         miss = origin_by_moments(data, name, statics)
         if miss is not None and miss < ALIKE:
-            point = data.reference_points[name] = np.zeros(3)
-            data.assumed_points.add(name)
+            point = np.zeros(3)
             said = (
                 f"{name}: the files do not say about which point moments are: taken about the "
                 f"origin, as those of long waves agree to {miss:.2g} (--origin)"
             )
-            data.findings.append(Finding("info", "assumption", said))
+            data.assume_point(name, point, Finding("info", "assumption", said))
     if wrong is not None or point is None:
         text = f"{missing}, and its mesh {path.name} ({shown}) is not the hull of the tables: "
         text = missing if wrong is None else text + wrong

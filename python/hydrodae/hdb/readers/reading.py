@@ -51,7 +51,7 @@ def read_source(
     path, what = resolve(source)
     water = Water(rho, depth, gravity)
     try:
-        with np.errstate(over="ignore", invalid="ignore"):  # rows that hold inf are told below
+        with np.errstate(over="ignore", invalid="ignore"):  # rows that hold inf are reported below
             data = _read(path, what, water)
         _check_tables(path, data)
         settle_points(data)
@@ -103,7 +103,7 @@ def _check_tables(path: Path, data: SourceData) -> None:
     for name in ("added_mass", "radiation_damping", *FORCES):
         table = getattr(data, name)
         if table is not None:
-            table[~(np.abs(table) < LARGEST)] = np.nan  # such rows are dropped, and told
+            table[~(np.abs(table) < LARGEST)] = np.nan  # such rows are dropped, and reported
     settle_headings(data)
     if DEEPEST < data.water_depth < np.inf:
         text = f"no sea is {data.water_depth:g} m deep: taken as infinitely deep water"

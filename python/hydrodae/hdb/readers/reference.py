@@ -30,13 +30,11 @@ def settle_points(data: SourceData) -> None:
     for name in without_moments(data):
         if data.reference_points.get(name) is not None:
             continue
-        data.reference_points[name] = np.zeros(3)
-        data.assumed_points.add(name)
         text = (
             f"{name}: the forces hold no moments and are the same about any point; the origin is "
             f"taken (--cog {name}=x,y,z: another one)"
         )
-        data.findings.append(Finding("info", "assumption", text))
+        data.assume_point(name, np.zeros(3), Finding("info", "assumption", text))
 
 
 def origin_by_moments(data: SourceData, body: str, statics: Hydrostatics) -> float | None:
@@ -82,11 +80,12 @@ def origin_by_moments(data: SourceData, body: str, statics: Hydrostatics) -> flo
     return float(max(height, ahead, aside))
 
 
-def reference_by_statics(data: SourceData, body: str, found: FileHydrostatics) -> Array | None:
-    """Return the centre of gravity of the hydrostatics or the origin, by the long-wave moment.
+def assume_by_statics(data: SourceData, body: str, found: FileHydrostatics) -> None:
+    """Take the centre of gravity of the hydrostatics or the origin, by the long-wave moment.
 
     About a point p the Froude-Krylov moment in long waves is FK_5 = i k cos(beta) K_55(p) - ...,
-    with the buoyancy stiffness K_55(p): that shows the height of p.
+    with the buoyancy stiffness K_55(p): that shows the height of p. Where neither
+    point fits none is taken.
 
     Parameters
     ----------
@@ -96,11 +95,6 @@ def reference_by_statics(data: SourceData, body: str, found: FileHydrostatics) -
         Name of the body.
     found : FileHydrostatics
         From the files beside the source.
-
-    Returns
-    -------
-    (3,) array or None
-        [m]; None if neither point fits.
     """
     candidates = {
         f"the centre of gravity in {found.files[0].name}": found.center_of_gravity,
@@ -110,8 +104,8 @@ def reference_by_statics(data: SourceData, body: str, found: FileHydrostatics) -
     if moment is None:
         name, point = next(iter(candidates.items()))
         text = f"{body}: moments taken about {name}, {point.tolist()}: nothing could check it"
-        data.findings.append(Finding("warning", "assumption", text))
-        return np.asarray(point)
+        data.assume_point(body, np.asarray(point), Finding("warning", "assumption", text))
+        return
     statics, center = found.hydrostatics, found.center_of_gravity
     errors = {}
     for name, point in candidates.items():
@@ -122,14 +116,13 @@ def reference_by_statics(data: SourceData, body: str, found: FileHydrostatics) -
         errors[name] = abs(moment - k55) / size
     best = min(errors, key=lambda name: errors[name])
     if errors[best] > AGREE:
-        return None
+        return
     text = (
         f"{body}: the file does not say about which point its moments are; taken about {best}, "
         f"{candidates[best].tolist()}, with which the long-wave pitch moment gives K55 to "
         f"{errors[best]:.1g}"
     )
-    data.findings.append(Finding("info", "assumption", text))
-    return np.asarray(candidates[best])
+    data.assume_point(body, np.asarray(candidates[best]), Finding("info", "assumption", text))
 
 
 def _moment_over_k(data: SourceData, body: str, found: FileHydrostatics) -> float | None:

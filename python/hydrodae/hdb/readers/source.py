@@ -20,7 +20,7 @@ Complex = NDArray[np.complex128]
 
 #: What no coefficient in SI units reaches; larger ones stand for overflows.
 LARGEST = 1e30
-#: Taken where nothing tells: sea water, and the mean over the globe.
+#: Taken where no file gives them: sea water, and the mean over the globe.
 SEA_WATER, USUAL_GRAVITY = 1025.0, 9.81
 
 
@@ -60,8 +60,9 @@ class SourceData:
         What was read; hashed for `source_sha256`.
     findings : list of Finding
         What the reader noticed.
-    assumed_points : set of str
-        Bodies whose reference point the source does not state: the user may state another.
+    assumed_points : dict of Finding
+        By body whose reference point the source does not state; the user may state another. The
+        finding reports what is assumed.
     meshes : dict
         Panels (n, 4, 3) of the wetted surface of bodies [m], where the source holds them.
     extra : dict of SourceTable
@@ -86,9 +87,21 @@ class SourceData:
     added_mass_inf: Array | None = None
     files: list[Path] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
-    assumed_points: set[str] = field(default_factory=set)
+    assumed_points: dict[str, Finding] = field(default_factory=dict)
     meshes: dict[str, Array] = field(default_factory=dict)
     extra: dict[str, SourceTable] = field(default_factory=dict)
+
+    def assume_point(self, body: str, point: Array, why: Finding) -> None:
+        """Take a reference point that the source does not state."""
+        self.reference_points[body] = point
+        self.assumed_points[body] = why
+        self.findings.append(why)
+
+    def state_point(self, body: str, point: Array) -> None:
+        """Take the reference point that the user states, in place of an assumed one."""
+        self.reference_points[body] = point
+        why = self.assumed_points.get(body)
+        self.findings = [finding for finding in self.findings if finding is not why]
 
 
 def without_hydrostatics(text: str, names: Iterable[str]) -> Finding:

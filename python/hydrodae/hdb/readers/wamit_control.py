@@ -23,7 +23,7 @@ from hydrodae.hdb.readers.wamit_asked import HAMS, Asked, of_hams, steps
 Array = NDArray[np.float64]
 
 _NUMBERS = re.compile(NUMBER)
-#: WAMIT prints the density 1 when it was not told one.
+#: WAMIT prints the density 1 when it was not given one.
 LEAST_DENSITY = 100.0
 
 

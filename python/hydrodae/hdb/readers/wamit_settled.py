@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 CLEAR = 0.98
 #: Factors between damping and force of heave within which they agree, and that nothing explains.
 NEAR, FAR = 1.4, 2.0
-#: Share of the largest |F_3|^2 beyond which waves are long, and fewest values that tell.
+#: Share of the largest |F_3|^2 beyond which waves are long, and fewest values that decide.
 LIFTS, ROWS = 0.1, 3
 
 
@@ -131,7 +131,7 @@ def first_column(
     best, law = 0, "A and B"
     if known and fits[0] <= CLEAR:
         best = int(np.argmax(fits))
-    if not known or best != 0:  # several wrong ones may look causal; heave tells one from another
+    if not known or best != 0:  # several wrong ones may look causal; heave decides between them
         heave = _heave(rows, force())
         apart = [_apart(stem, heave, option, constants) for option in COLUMNS]
         right = int(np.argmin(apart))
@@ -219,7 +219,7 @@ def at_infinity(omega: Array, a: Array, b: Array, findings: list[Finding]) -> Ar
     """
     zero, high = a[omega == 0.0], a[np.isinf(omega)]
     usual = np.isfinite(omega) & (omega > 0.0)
-    for table in (a, b):  # rows with NaN or overflows are dropped later, and told
+    for table in (a, b):  # rows with NaN or overflows are dropped later, and reported
         usual &= (np.abs(table) < LARGEST).all(axis=(1, 2))
     limit = np.asarray(high[0]) if len(high) else None
     if usual.sum() < 8 or not (len(zero) or len(high)):
@@ -228,7 +228,7 @@ def at_infinity(omega: Array, a: Array, b: Array, findings: list[Finding]) -> Ar
     diagonal = np.einsum("wii->wi", a[usual])
     damping = w[:, None] * np.einsum("wii->wi", b[usual])
     estimate, doubt = infinity.added_mass_inf(w, diagonal, damping)
-    # only coordinates whose two limits are apart can tell
+    # only coordinates whose two limits are apart can decide
     tells = np.abs(diagonal[0] - estimate) > 3.0 * doubt + 0.1 * np.abs(diagonal[0])
     if not tells.any():
         return limit

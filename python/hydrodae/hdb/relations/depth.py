@@ -20,13 +20,13 @@ from scipy.optimize import minimize_scalar
 from hydrodae.hdb.relations.dispersion import group_velocity, wavenumber
 
 Array = NDArray[np.float64]
-#: Depths over the longest deep-water wave that are tried: beyond, and below, nothing tells.
+#: Depths over the longest deep-water wave that are tried: others change nothing.
 SHALLOWEST, DEEPEST, STEPS = 1e-3, 2.0, 400
-#: Largest rms error of the relation with which a depth is told, and what may be added to the least.
+#: Largest rms error of the relation with which a depth is given, and what is added to the least.
 AGREE, DOUBT = 0.01, 0.003
-#: Damping over its peak that is no noise; so many of the lowest frequencies tell, and at least.
+#: Damping over its peak that is no noise; most and fewest of the lowest frequencies that count.
 LEAST, LOWEST, FEWEST = 1e-3, 12, 5
-#: Relative width of the depths that agree within which one is told.
+#: Relative width of the depths that agree within which one is reported.
 NARROW = 0.1
 
 

@@ -33,7 +33,7 @@ EXACT_TAIL = 1e-4
 FINISHED = 0.1
 #: Share of what a trusted tail adds that is doubted.
 TAIL_DOUBT = 0.1
-#: Power n of B ~ w^-n beyond a table, where the table does not tell a larger one: that of a
+#: Power n of B ~ w^-n beyond a table, where the table does not show a larger one: that of a
 #: wall-sided body, whose waves have the amplitude 2 U/w of a wave maker moved with velocity U.
 WAVE_MAKER = 3.0
 #: Damping at the end over its largest from which the tail beyond may be twice what is taken.

@@ -20,7 +20,7 @@ from hydrodae.study.calibrate.statistics import spread, undetermined
 
 Array = NDArray[np.float64]
 
-#: Correlation of two parameters that is told.
+#: Correlation of two parameters that is reported.
 CORRELATED = 0.95
 #: Evaluations of the search for start values by peaks.
 PEAKS_MOST = 8

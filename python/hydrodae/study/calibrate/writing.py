@@ -49,16 +49,21 @@ def write_case(
 
 
 def _replace(lines: list[str], case: Case, key: str, value: Any) -> None:
-    place = case.scene.positions.get(key, "")
+    file, line, column = case.scene.places.get(key, ("", 0, 0))
     by_hand = f"write it by hand: {key} = {to_toml(value, key)}"
-    found = re.search(r":(\d+):\d+$", place)
-    match = _ASSIGNMENT.match(lines[int(found[1]) - 1]) if found else None
-    if found is None or match is None:
+    match = _ASSIGNMENT.match(lines[line - 1]) if line else None
+    if match is None:
         raise CaseError(f"{key} stands in no line of its own in the case file; {by_hand}")
     old, comment = _split(match["value"])
     if old is None:
-        raise CaseError(f"{place}: the value of {key} is not on one line; {by_hand}")
-    lines[int(found[1]) - 1] = match["head"] + to_toml(value, key) + comment
+        raise CaseError(
+            f"the value of {key} is not on one line; {by_hand}",
+            key=key,
+            file=file,
+            line=line,
+            column=column,
+        )
+    lines[line - 1] = match["head"] + to_toml(value, key) + comment
 
 
 def _split(text: str) -> tuple[str | None, str]:

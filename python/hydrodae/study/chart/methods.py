@@ -18,7 +18,7 @@ TRAITS: dict[str, dict[str, Any]] = {
 #: Tolerance of Newton's iteration in Runge-Kutta methods of fixed steps, below any useful error.
 _NEWTON = 1e-10
 
-#: What a chart compares unless told otherwise.
+#: What a chart compares by default.
 METHODS = (
     "auto",
     "ida",

@@ -9,7 +9,7 @@ from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError
 from hydrodae.study.gradient.parameters import Parameter
 
-#: Why runs with a controller of a type have no derivative that differences of them would tell.
+#: Why runs with a controller of a type have no derivative that differences of them would give.
 NOT_SMOOTH = {
     "bang_bang": "it switches at its instants, so that results jump",
     "latching": "it switches at events, whose number and order may change",

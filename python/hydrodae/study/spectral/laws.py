@@ -6,7 +6,7 @@ friction_lugre.h, dry_friction.h. Each is turned round: a positive load is again
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -28,25 +28,25 @@ def law_of(force: Table) -> Law | None:
     CaseError
         The force is nonlinear, and not by the rate of its joint alone.
     """
-    kind = force["type"]
-    if kind == "pto_hydraulic":
-        raise CaseError(
-            f"force {force['name']!r}: type 'pto_hydraulic' has no linear equivalent here, as its "
-            "pressures follow the sea; run it in the time domain"
-        )
-    if kind == "pto_general":
-        return _general(force)
     if "static_coefficient" in force:
         raise CaseError(
             f"force {force['name']!r}: friction pressed by the reaction of its joint has no linear "
             "equivalent here; give a constant 'static' load, or run it in the time domain"
         )
-    if kind == "dry_friction":
-        kinetic = float(force.get("kinetic", force["static"]))
-        return lambda v: kinetic * np.sign(v)
-    if kind in ("friction_stribeck", "friction_lugre"):
-        return _stribeck(force)
-    return None
+    make = _LAWS.get(force["type"])
+    return None if make is None else make(force)
+
+
+def _hydraulic(force: Table) -> Law:
+    raise CaseError(
+        f"force {force['name']!r}: type 'pto_hydraulic' has no linear equivalent here, as its "
+        "pressures follow the sea; run it in the time domain"
+    )
+
+
+def _dry(force: Table) -> Law:
+    kinetic = float(force.get("kinetic", force["static"]))
+    return lambda v: kinetic * np.sign(v)
 
 
 def _stribeck(force: Table) -> Law:
@@ -112,3 +112,12 @@ def _curve(at: Array, load: Any) -> Law:
         return np.asarray(inside(within) + beyond * np.where(beyond < 0.0, slope[0], slope[-1]))
 
     return law
+
+
+_LAWS: Mapping[str, Callable[[Table], Law | None]] = {
+    "pto_hydraulic": _hydraulic,
+    "pto_general": _general,
+    "dry_friction": _dry,
+    "friction_stribeck": _stribeck,
+    "friction_lugre": _stribeck,
+}

@@ -204,7 +204,7 @@ def _judge(
         return PASS, f"stops at the lock: {complaint}", off
     if off > allowed:
         parted = min((e.runs_part_at for e in results.accuracy().values()), default=math.inf)
-        if math.isfinite(parted):  # the output says so
+        if math.isfinite(parted):  # the output states it
             return PASS, f"off by {off:.2g} {scene.unit}; two runs part at {parted:.3g} s", off
         return WRONG, f"off by {off:.2g} {scene.unit}, more than {allowed:.2g}", off
     return PASS, "", off

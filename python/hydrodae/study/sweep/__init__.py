@@ -96,6 +96,8 @@ def _check_keys(plan: Study, case: Case) -> None:
     try:
         case.with_values({k: v for k, v in plan.points[0].items() if k != RUNG})
     except CaseError as error:
-        said = str(error).removeprefix("--set ")
-        of_study = any(said.startswith(f"{key}:") for key in plan.points[0])
-        raise CaseError(f"{plan.path}: {said}" if of_study else str(error)) from None
+        key = error.file.removeprefix("--set ")
+        if key not in plan.points[0]:
+            raise
+        fault = f"{key}: {error.fault}"
+        raise CaseError(fault, key=error.key, file=str(plan.path)) from None

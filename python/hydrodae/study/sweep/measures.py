@@ -30,7 +30,7 @@ STATISTICS: dict[str, Callable[[Array], float]] = {
     "rms": lambda x: float(np.sqrt(np.mean(x**2))),
     "last": lambda x: float(x[-1]),
 }
-#: What every run tells, with its unit.
+#: What every run gives, with its unit.
 ALWAYS = {"mean_power_absorbed": "W", "estimated_error": "-", "steps": "-"}
 #: Names that a measure cannot take.
 TAKEN = (

@@ -17,7 +17,7 @@ from hydrodae.study.gradient import Objective
 from hydrodae.study.gradient.parameters import read_parameter, started, values_of
 from hydrodae.study.sweep.journal import Journal, Row
 from hydrodae.study.sweep.plan import point_key
-from hydrodae.study.sweep.problem import Problem, read_problem
+from hydrodae.study.sweep.problem import METHODS, Problem, read_problem
 from hydrodae.study.sweep.rungs import open_case
 from hydrodae.study.sweep.table import claim, texts_of, write
 from hydrodae.support.version import version
@@ -160,8 +160,8 @@ class _Path:
         self._size = abs(first["value"]) or 1.0
         options: dict[str, Any] = {"maxiter": self.problem.most}
         options["ftol"] = self.problem.tolerance
-        if self.problem.method == "L-BFGS-B":
-            options |= {"maxfun": self.problem.most, "gtol": self.problem.tolerance}
+        own = METHODS[self.problem.method]
+        options |= {name: getattr(self.problem, limit) for name, limit in own.items()}
         return minimize(
             self._value,
             start,

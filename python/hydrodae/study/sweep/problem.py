@@ -18,7 +18,11 @@ from hydrodae.study.sweep.points import known, read_file
 from hydrodae.study.sweep.rungs import DEFAULT, check_rungs
 from hydrodae.support.version import version
 
-METHODS = ("L-BFGS-B", "SLSQP")
+#: SciPy's methods, and what their own options are taken from.
+METHODS: Mapping[str, Mapping[str, str]] = {
+    "L-BFGS-B": {"maxfun": "most", "gtol": "tolerance"},
+    "SLSQP": {},
+}
 KEYS = ("maximise", "minimise", "method", "tolerance", "most", "parameter")
 TABLES = ("case", "rungs", "result", "optimise")
 
@@ -174,7 +178,7 @@ def _bound(file: Path, name: str, table: Any) -> Bound:
 
 
 def _method(file: Path, table: Mapping[str, Any]) -> str:
-    method = table.get("method", METHODS[0])
+    method = table.get("method", next(iter(METHODS)))
     if method not in METHODS:
         raise CaseError(
             f"{file}: [optimise]: key 'method': expected one of {', '.join(METHODS)}, "

@@ -100,7 +100,7 @@ def _add_means(out: xr.Dataset, study: Study) -> None:
     along = [study.column(key) for key in study.over]
     if not along:
         return
-    numbers = [str(n) for n, v in out.data_vars.items() if v.dtype.kind == "f"]
+    numbers = [str(n) for n, v in out.data_vars.items() if np.issubdtype(v.dtype, np.floating)]
     ends = [f"{name}{end}" for name in numbers for end in ENDS]
     for name in [n for n in numbers if n not in ("estimated_error", "steps", *ends)]:
         values = out[name]
