@@ -55,7 +55,7 @@ private:
   template <class Visit> void each_tangent(const VectorX& rows, Visit&& visit) const;
   void update(double h);
   bool refresh(double t, double h);
-  bool newton(double t, double h);
+  bool newton(double t, double h, bool full);
   [[noreturn]] void fail(Reason reason, const std::string& what);
 
   const system::Regime& s_;
@@ -122,13 +122,16 @@ bool GeneralizedAlpha::refresh(double t, double h) {
   return newton_matrix_.factorise(e_.parts, {by_x, by_q, by_x});
 }
 
-bool GeneralizedAlpha::newton(double t, double h) {
-  constexpr int most = 12, stale = 4;
+/// @param full  with the Jacobian of each iteration, where the first steps may lead away
+bool GeneralizedAlpha::newton(double t, double h, bool full) {
+  constexpr int stale = 4;
+  const int most = full ? 30 : 12;
   constexpr double accuracy = 1e-4;
   double before = 0.0;
   for (int i = 0; i < most; ++i) {
     update(h);
-    if (!e_.residual(t, trial_, trial_yp_, residual_))
+    if ((full && i > 0 && !(trial_.allFinite() && refresh(t, h))) ||
+        !e_.residual(t, trial_, trial_yp_, residual_))
       return false;
     // The rows of q are q' - E (u + G^T mu), and q' = 0 here.
     each_tangent(residual_, [&](Index k, double row) { velocity_[k] = -row - trial_[s_.u0 + k]; });
@@ -154,7 +157,7 @@ bool GeneralizedAlpha::newton(double t, double h) {
         factored_ = 0.0; // a new Jacobian at the next step
       return true;
     }
-    if (i > 1 && rate > 0.9)
+    if (i > 1 && rate > 0.9 && !full)
       return false;
     before = size;
   }
@@ -177,12 +180,12 @@ double GeneralizedAlpha::step(double end, double) {
     update(h);
     if ((attempt > 0 || factored_ != h) && !refresh(t_ + h, h))
       fail(Reason::jacobian, "the Jacobian is singular");
-    done = newton(t_ + h, h);
+    done = newton(t_ + h, h, false);
     if (!done)
       ++e_.statistics.convergence_failures;
   }
   if (!done && trial_.allFinite() && refresh(t_ + h, h)) { // with the Jacobian of where it got to
-    done = newton(t_ + h, h);
+    done = newton(t_ + h, h, true);
     factored_ = 0.0;
   }
   if (!done)

@@ -29,21 +29,22 @@ bool StageNewton::factorise(double h) {
   bool good = real_->factorise(e_.parts, 1.0 / (rk_.gamma0 * h));
   for (std::size_t p = 0; p < pairs_.size() && good; ++p)
     good = pairs_[p]->factorise(e_.parts, rk_.pairs[p] / h);
-  if (good && renewal_ == 0.0)
+  if (good && renewal_ == 0.0) {
+    one_ = real_->work();
     renewal_ = find_renewal();
+  }
+  e_.statistics.factor_work += n_systems() * one_.factorise;
   return good;
 }
 
+/// Real systems that cost as much as those of all eigenvalues: a complex one is worth two.
+double StageNewton::n_systems() const { return 1.0 + 2.0 * static_cast<double>(pairs_.size()); }
+
 /// By the operations of the matrix for one stage.
 double StageNewton::find_renewal() const {
-  // Operations, as measured, of a residual and of a Jacobian for each of its entries, and how many
-  // real ones a complex one is worth.
-  constexpr double of_residual = 8.0, of_jacobian = 40.0, complex = 2.0;
-  const linalg::SparseLu<double>::Work work = real_->work();
-  const double entries = static_cast<double>(e_.pattern.row.size()),
-               systems = 1.0 + complex * static_cast<double>(pairs_.size());
-  return (systems * work.factorise + of_jacobian * entries) /
-         (systems * work.solve + of_residual * entries * rk_.stages);
+  const auto entries = static_cast<double>(e_.pattern.row.size());
+  return (n_systems() * one_.factorise + linalg::of_jacobian * entries) /
+         (n_systems() * one_.solve + linalg::of_residual * entries * rk_.stages);
 }
 
 void StageNewton::rates(double h, const MatrixX& Z, MatrixX& out) const {
@@ -135,6 +136,7 @@ NewtonResult StageNewton::simplified(double t, double h, const VectorX& y0, cons
       column += 2;
     }
     residual_.noalias() = work_.lazyProduct(rk_.T.transpose());
+    e_.statistics.factor_work += n_systems() * one_.solve;
     return true;
   });
 }
@@ -210,7 +212,12 @@ bool StageNewton::factorise_full(double t, double h) {
               (i == j ? parts.by_y[k] : 0.0) + factor * parts.by_yp[k];
     }
   }
-  return full_->lu->factorise();
+  if (!full_->lu->factorise())
+    return false;
+  if (full_->work.factorise == 0.0)
+    full_->work = full_->lu->work();
+  e_.statistics.factor_work += full_->work.factorise;
+  return true;
 }
 
 NewtonResult StageNewton::full(double t, double h, const VectorX& y0, const VectorX& w,
@@ -224,6 +231,7 @@ NewtonResult StageNewton::full(double t, double h, const VectorX& y0, const Vect
     if (!settled && !factorise_full(t, h))
       return false;
     full_->lu->solve(residual_.data()); // columns one after the other: the order of the blocks
+    e_.statistics.factor_work += full_->work.solve;
     return true;
   });
 }

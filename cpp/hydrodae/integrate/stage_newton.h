@@ -52,12 +52,14 @@ private:
         diagonal; ///< places of the multipliers' own diagonal entries, stage by stage
     std::vector<std::vector<Index>> slots; ///< [i * s + j][k]: place of entry k of block (i, j), -1
     std::unique_ptr<linalg::SparseLu<double>> lu;
+    linalg::SparseLu<double>::Work work;
     explicit Full(system::Pattern whole) : pattern(std::move(whole)), parts(pattern) {}
   };
   bool residuals(double t, double h, const VectorX& y0, const MatrixX& Z);
   double size(const VectorX& w, const MatrixX& dZ) const;
   void make_full();
   bool factorise_full(double t, double h);
+  double n_systems() const;
   double find_renewal() const;
   template <class Solve>
   NewtonResult iterate(double t, double h, const VectorX& y0, const VectorX& w, MatrixX& Z,
@@ -68,7 +70,8 @@ private:
   std::unique_ptr<linalg::NewtonMatrix<double>> real_;
   std::vector<std::unique_ptr<linalg::NewtonMatrix<std::complex<double>>>> pairs_;
   std::unique_ptr<Full> full_;
-  double renewal_ = 0.0; ///< 0: not known yet
+  linalg::SparseLu<double>::Work one_; ///< of a real system, as it first was
+  double renewal_ = 0.0;               ///< 0: not known yet
   MatrixX stage_, rate_, residual_, work_;
   VectorX y_, yp_, r_;
   mutable VectorX sums_; ///< scratch of `size`

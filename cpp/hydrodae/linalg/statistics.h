@@ -3,6 +3,10 @@
 
 namespace hydrodae::linalg {
 
+/// Operations for each entry of the Jacobian, as measured: of a residual, and of the Jacobian
+/// itself.
+inline constexpr double of_residual = 8.0, of_jacobian = 40.0;
+
 /// What an integrator did so far.
 struct Statistics {
   long steps = 0;
@@ -11,12 +15,13 @@ struct Statistics {
   long newton_iterations = 0;
   long error_test_failures = 0;
   long convergence_failures = 0;
-  double last_step = 0.0; ///< [s]
+  double factor_work = 0.0; ///< operations of the factors of Newton's matrices
+  double last_step = 0.0;   ///< [s]
   int last_order = 0;
 
   void remember(Archive& a) {
     a(steps, residual_calls, jacobian_calls, newton_iterations, error_test_failures,
-      convergence_failures, last_step, last_order);
+      convergence_failures, factor_work, last_step, last_order);
   }
 
   /// Adds the counts of another part of the same run; the last step stays.
@@ -27,6 +32,7 @@ struct Statistics {
     newton_iterations += other.newton_iterations;
     error_test_failures += other.error_test_failures;
     convergence_failures += other.convergence_failures;
+    factor_work += other.factor_work;
     return *this;
   }
 };

@@ -15,6 +15,7 @@ constexpr double stiff = 50.0;      ///< fastest rate over that of the motion
 constexpr double long_run = 2000.0; ///< [rad]
 constexpr double short_step = 0.02; ///< [rad]
 constexpr int many = 40;            ///< short steps
+constexpr int weighed = 10;         ///< steps that are weighed together
 
 /// Is there anything but joints, weights and constant loads in each group of bodies?
 bool may_damp(const system::Regime& s) {
@@ -53,7 +54,8 @@ MethodOrder order_methods(const SceneTraits& traits) {
   if (!(traits.fastest_rate <= stiff * traits.motion_rate))
     return {{"radau", "ida"},
             "it is stiff: the fastest rate is " + rounded_text(traits.fastest_rate) +
-                " 1/s, the motion's " + rounded_text(traits.motion_rate) + " 1/s"};
+                " 1/s, the motion's " + rounded_text(traits.motion_rate) + " 1/s",
+            traits.costly.empty()};
   const std::vector<std::string> implicit_first = {"radau", "explicit_rk", "ida"};
   if (!traits.costly.empty())
     return {implicit_first, traits.costly + " is expensive to evaluate"};
@@ -82,7 +84,9 @@ void MethodChoice::next(const SolverError& error) {
   left_.push_back({error.time, error.halt.what});
   if (more()) {
     ++at_;
-    short_steps_ = 0;
+    short_steps_ = weighed_steps_ = 0;
+    weighed_time_ = turn_steps_ = 0.0;
+    again_ = turns_ > 0;
     return;
   }
   Halt halt = error.halt;
@@ -94,13 +98,56 @@ void MethodChoice::next(const SolverError& error) {
   throw SolverError(error.time, std::move(halt));
 }
 
-void MethodChoice::accept(double h, double rate, bool own) {
+void MethodChoice::accept(double h, double rate, bool own, double operations) {
   if (own)
     short_steps_ = h * rate < short_step ? short_steps_ + 1 : 0;
+  if (weighed_steps_ == 0)
+    weighed_from_ = operations;
+  else
+    weighed_time_ += h;
+  ++weighed_steps_;
+  turn_steps_ += 1.0;
+  operations_ = operations;
 }
 
 bool MethodChoice::labours() const {
-  return more() && model::method_traits(method()).bounded_stability && short_steps_ >= many;
+  return more() && !takes_turn() && model::method_traits(method()).bounded_stability &&
+         short_steps_ >= many;
+}
+
+bool MethodChoice::weighs() const {
+  return order_.may_weigh && at_ == 2 * static_cast<std::size_t>(turns_) && weighed_steps_ > weighed;
+}
+
+std::optional<std::string> MethodChoice::weigh(double fastest, double of_step) {
+  constexpr double stable = 5.0; // of a step of order 8, times the fastest rate
+  const double h = std::min(weighed_time_ / weighed, stable / fastest);
+  const double as_many = (operations_ - weighed_from_) / of_step, // steps of explicit_rk
+      ratio = as_many * h / weighed_time_;
+  weighed_steps_ = 0;
+  weighed_time_ = 0.0;
+  const bool again = again_;
+  again_ = false;
+  if (!(ratio > 2.0))
+    return std::nullopt;
+  set_turns(turns_ + 1);
+  turn_ = again ? 2.0 * turn_ : 10.0 * as_many;
+  return number_text(weighed) + " steps took " + rounded_text(ratio) +
+         " times the operations that explicit_rk needs";
+}
+
+/// The order with so many turns of explicit_rk after the first method.
+void MethodChoice::set_turns(int turns) {
+  const auto second = order_.methods.begin() + 1;
+  for (int k = turns; k < turns_; ++k)
+    order_.methods.erase(second, second + 2);
+  for (; turns_ < turns; ++turns_)
+    order_.methods.insert(order_.methods.begin() + 1, {"explicit_rk", order_.methods.front()});
+  turns_ = turns;
+}
+
+SolverError MethodChoice::over(double t) const {
+  return {t, {Reason::labour, "it is time to weigh radau again"}};
 }
 
 SolverError MethodChoice::labour(double t) const {
@@ -117,7 +164,10 @@ std::vector<MethodChoice::Part> MethodChoice::parts() const {
 }
 
 void MethodChoice::remember(Archive& a) {
-  a(at_, left_, short_steps_);
+  int turns = turns_;
+  a(at_, left_, short_steps_, turns, turn_, turn_steps_, again_, weighed_steps_, weighed_time_,
+    operations_, weighed_from_);
+  set_turns(turns);
   if (at_ >= order_.methods.size() || left_.size() < at_)
     throw Error("the state is of a run with other methods");
 }
@@ -139,9 +189,13 @@ std::string in_words(const MethodChoice& choice) {
   if (!choice.chosen())
     return parts.front().method;
   std::string text = "auto: " + parts.front().method + " (" + parts.front().reason + ")";
-  for (std::size_t k = 1; k < parts.size(); ++k)
+  const std::size_t shown = std::min<std::size_t>(parts.size(), 4);
+  for (std::size_t k = 1; k < shown; ++k)
     text += ", " + parts[k].method + " from t = " + number_text(parts[k].from) + " s because " +
             parts[k - 1].method + " gave up: " + parts[k].reason;
+  if (parts.size() > shown)
+    text += ", and " + std::to_string(parts.size() - shown) + " more changes, at last to " +
+            parts.back().method + " at t = " + number_text(parts.back().from) + " s";
   return text;
 }
 

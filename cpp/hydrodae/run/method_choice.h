@@ -2,6 +2,7 @@
 /// `solver.method = "auto"`: with which method a scene begins, and which follow where that one
 /// cannot go on.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct SceneTraits {
 struct MethodOrder {
   std::vector<std::string> methods;
   std::string reason;
+  bool may_weigh = false; ///< may explicit_rk follow the first where it is cheaper?
 };
 
 /// The choice, by what the stability map, the attack suite and the charts of tests/ show. radau
@@ -34,7 +36,9 @@ struct MethodOrder {
 ///   it comes radau, then ida.
 /// - Stiff is what is 50 times as fast as the motion: an explicit step, about 6 over the fastest
 ///   rate, is then shorter than a tenth of a radian of the motion, and one of radau takes less.
-///   There explicit_rk also spends energy on what hardly moves. After radau comes ida only.
+///   There explicit_rk also spends energy on what hardly moves. After radau comes ida only. Where
+///   the fast rates come to life, as in a line that snaps taut, radau follows them with short steps
+///   and many iterations: explicit_rk takes over once it is the cheaper one.
 /// - What a scene calls at every evaluation (Python, the nearest point of a path) counts more than
 ///   the algebra: radau evaluates half as often as explicit_rk, or less.
 /// - Without damping the errors of all steps pile up. At the same tolerance those of radau are 10
@@ -68,13 +72,34 @@ public:
   /// none is left, with all that were tried.
   void next(const SolverError& error);
 
-  /// Takes an accepted step of the length h [s] at the rate of the motion [1/s].
+  /// Takes an accepted step of the length h [s] at the rate of the motion [1/s], after so many
+  /// operations of the method since its start.
   /// @param own the method chose its end; else h is no evidence
-  void accept(double h, double rate, bool own);
+  void accept(double h, double rate, bool own, double operations);
 
   /// Were so many of the last steps of explicit_rk so short against the motion that it must be
   /// stability that limits them, and is there a method to make longer ones?
   bool labours() const;
+
+  /// Is it time to ask whether explicit_rk would do the work of radau with less? Once in so many
+  /// steps, where the scene was stiff at its start.
+  bool weighs() const;
+
+  /// Lets explicit_rk follow, then radau again, if it would need less than half of the operations:
+  /// the counts are good to a factor of 2. Its steps are as long as those of radau, and no longer
+  /// than its stability allows. Its turn takes ten times the operations of the steps that were
+  /// weighed, so that these count little, and twice those of its last turn if radau did no better
+  /// at once.
+  /// @param fastest  rate of the equations [1/s]
+  /// @param of_step  operations of one step of explicit_rk
+  /// @returns why, if so
+  std::optional<std::string> weigh(double fastest, double of_step);
+
+  /// Is the turn of explicit_rk over?
+  bool returns() const { return takes_turn() && turn_steps_ >= turn_; }
+
+  /// That as an error at time t [s].
+  SolverError over(double t) const;
 
   /// That as an error at time t [s].
   SolverError labour(double t) const;
@@ -96,10 +121,20 @@ private:
     void remember(Archive& a);
   };
 
+  bool takes_turn() const { return at_ % 2 == 1 && at_ < 2 * static_cast<std::size_t>(turns_); }
+  void set_turns(int turns);
+
   MethodOrder order_;
   std::size_t at_ = 0;
-  std::vector<Left> left_; ///< of the methods before
-  int short_steps_ = 0;    ///< in a row
+  std::vector<Left> left_;    ///< of the methods before
+  int short_steps_ = 0;       ///< in a row
+  int turns_ = 0;             ///< of explicit_rk, each with radau after it
+  double turn_ = 0.0;         ///< steps of the last
+  double turn_steps_ = 0.0;   ///< made in it
+  bool again_ = false;        ///< have no steps of radau been weighed since the last turn?
+  int weighed_steps_ = 0;     ///< since the last `weigh`
+  double weighed_time_ = 0.0; ///< that they took [s]
+  double operations_ = 0.0, weighed_from_ = 0.0; ///< at the last step, at the last `weigh`
 };
 
 /// "auto: explicit_rk (nothing is stiff), radau from t = 1.2 s because ..."; a method that was

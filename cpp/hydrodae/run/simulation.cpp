@@ -223,6 +223,7 @@ void Simulation::check_step(bool event) {
 bool Simulation::make_step(double end) {
   if (methods_.labours())
     fall_back(methods_.labour(t_));
+  weigh_methods();
   for (;;) {
     last_start_ = step_start_;
     step_start_ = t_;

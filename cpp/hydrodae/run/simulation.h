@@ -151,6 +151,9 @@ private:
   void check_step(bool event);
   void take_back();
   void watch_steps(bool event, double end);
+  double operations() const;
+  double operations_of_explicit_step() const;
+  void weigh_methods();
   void restart();
   statics::Consistency& consistency();
   void follow_turns();

@@ -149,7 +149,44 @@ void Simulation::watch_steps(bool event, double end) {
   const double h = t_ - step_start_,
                longest = options_.max_step > 0.0 ? 0.9 * options_.max_step : INFINITY;
   const bool own = !event && t_ < end && t_ < bound_ && h < longest;
-  methods_.accept(h, integrate::motion_rate(regime_, y_), own);
+  methods_.accept(h, integrate::motion_rate(regime_, y_), own, operations());
+}
+
+/// Of the method at work, as far as they are counted.
+double Simulation::operations() const {
+  const linalg::Statistics s = integrator_->statistics();
+  const auto entries = static_cast<double>(pattern_.row.size());
+  return s.factor_work + entries * (linalg::of_residual * static_cast<double>(s.residual_calls) +
+                                    linalg::of_jacobian * static_cast<double>(s.jacobian_calls));
+}
+
+/// Of one step of explicit_rk: at each stage a residual, and a Jacobian of the mass matrix and the
+/// constraint rows alone.
+double Simulation::operations_of_explicit_step() const {
+  constexpr double evaluations = 13.0;
+  const system::Regime& s = regime_;
+  double entries = 0.0;
+  for (Index c = s.u0; c < s.u0 + s.n_u; ++c)
+    for (Index k = pattern_.column_start[static_cast<std::size_t>(c)];
+         k < pattern_.column_start[static_cast<std::size_t>(c) + 1]; ++k) {
+      const Index row = pattern_.row[static_cast<std::size_t>(k)];
+      const bool mass =
+          pattern_.has_rate[static_cast<std::size_t>(k)] && row >= s.u0 && row < s.u0 + s.n_u;
+      entries += mass || (row >= s.lambda0 && row < s.lambda0 + s.n_lambda);
+    }
+  return evaluations * (linalg::of_residual * static_cast<double>(pattern_.row.size()) +
+                        linalg::of_jacobian * entries);
+}
+
+/// Another method takes over where it makes the same steps with less work.
+void Simulation::weigh_methods() {
+  if (methods_.returns())
+    fall_back(methods_.over(t_));
+  if (!methods_.weighs())
+    return;
+  const double rate = integrate::fastest_rate(regime_, pattern_, t_, y_, yp_);
+  if (const auto why = methods_.weigh(rate, operations_of_explicit_step()))
+    fall_back({t_, {Reason::labour, *why}});
 }
 
 /// The rule by which the work over the coming step is summed.

@@ -100,24 +100,81 @@ TEST_CASE("where no method is left, the error tells of all") {
 TEST_CASE("many steps in a row that are short against the motion call for another method") {
   MethodChoice choice = chosen();
   for (int k = 0; k < 39; ++k)
-    choice.accept(1e-3, 10.0, true);
+    choice.accept(1e-3, 10.0, true, 0.0);
   CHECK_FALSE(choice.labours());
-  choice.accept(1e-9, 10.0, false); // cut short: no evidence
+  choice.accept(1e-9, 10.0, false, 0.0); // cut short: no evidence
   CHECK_FALSE(choice.labours());
-  choice.accept(1e-3, 10.0, true);
+  choice.accept(1e-3, 10.0, true, 0.0);
   CHECK(choice.labours());
   choice.next(choice.labour(3.0));
   CHECK_FALSE(choice.labours());
   choice = chosen();
   for (int k = 0; k < 200; ++k)
-    choice.accept(k % 39 == 38 ? 0.1 : 1e-3, 10.0, true); // now and then a long one
+    choice.accept(k % 39 == 38 ? 0.1 : 1e-3, 10.0, true, 0.0); // now and then a long one
   CHECK_FALSE(choice.labours());
+}
+
+TEST_CASE("explicit_rk takes turns where it needs less than half of the operations") {
+  const auto make_steps = [](MethodChoice& choice, int n, double each) {
+    double operations = 0.0;
+    for (int k = 0; k < n; ++k)
+      choice.accept(0.01, 1.0, true, operations += each);
+  };
+  const double fastest = 100.0, of_step = 1e3; // stable up to steps of 0.05 s
+  MethodChoice choice(MethodOrder{{"radau", "ida"}, "it is stiff", true});
+  make_steps(choice, 10, 5e3);
+  CHECK_FALSE(choice.weighs());
+  make_steps(choice, 1, 5e3);
+  CHECK(choice.weighs());
+  choice = MethodChoice(MethodOrder{{"radau", "ida"}, "it is stiff", true});
+  make_steps(choice, 11, 1.9e3);
+  CHECK_FALSE(choice.weigh(fastest, of_step)); // 1.9 times as many
+  make_steps(choice, 11, 5e3);
+  CHECK(choice.weighs());
+  CHECK_FALSE(choice.weigh(2000.0, of_step)); // its steps would be 0.0025 s long
+  make_steps(choice, 11, 5e3);
+  CHECK(choice.weigh(fastest, of_step) ==
+        "10 steps took 5 times the operations that explicit_rk needs");
+  choice.next(error(1.0, "dear"));
+  CHECK(choice.method() == "explicit_rk");
+  const auto turn = [&] {
+    int steps = 0;
+    for (; !choice.returns(); ++steps)
+      choice.accept(1e-9, 1.0, true, 0.0);
+    CHECK_FALSE(choice.labours());
+    choice.next(choice.over(2.0));
+    CHECK(choice.method() == "radau");
+    return steps;
+  };
+  CHECK(turn() == 500); // ten times 10 steps of 5
+  make_steps(choice, 11, 5e3);
+  CHECK(choice.weigh(fastest, of_step));
+  choice.next(error(3.0, "dear"));
+  CHECK(turn() == 1000); // twice as long, as radau did no better at once
+  make_steps(choice, 11, 1e3);
+  CHECK_FALSE(choice.weigh(fastest, of_step));
+  make_steps(choice, 11, 5e3);
+  CHECK(choice.weigh(fastest, of_step));
+  choice.next(error(4.0, "dear"));
+  CHECK(turn() == 500);
+  choice.next(error(5.0, "no step"));
+  CHECK(choice.method() == "ida");
+
+  MethodChoice other(MethodOrder{{"radau", "ida"}, "it is stiff", true});
+  std::vector<double> numbers;
+  Archive out(numbers);
+  out(choice);
+  Archive in(static_cast<const std::vector<double>&>(numbers));
+  in(other);
+  in.finish();
+  CHECK(in_words(other) == in_words(choice));
+  CHECK(other.method() == "ida");
 }
 
 TEST_CASE("a choice is saved and restored") {
   MethodChoice choice = chosen(), other = chosen();
   choice.next(error(1.5, "Größe"));
-  choice.accept(1e-3, 10.0, true);
+  choice.accept(1e-3, 10.0, true, 0.0);
   std::vector<double> numbers;
   Archive out(numbers);
   out(choice);
