@@ -14,7 +14,9 @@
 ///   own derivative is in none of them (of the order 1/(w ramp) beside the acceleration).
 
 #include <cmath>
+#include <vector>
 
+#include "hydrodae/core/types.h"
 #include "hydrodae/sea/component.h"
 
 namespace hydrodae::sea {

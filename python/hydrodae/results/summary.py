@@ -81,6 +81,9 @@ def _methods(results: Recording) -> list[str]:
         since = f"{name} from t = {start} s because {before} gave up: {reason}"
         parts.append(since if before else f"{name} ({reason})")
         before = name
+    if len(parts) > 4:
+        more = f"and {len(parts) - 4} more changes, at last to {before} at t = {start} s"
+        parts[4:] = [more]
     return ["  method auto: " + ", ".join(parts)] if parts else []
 
 
