@@ -116,19 +116,22 @@ bool MethodChoice::labours() const {
 }
 
 bool MethodChoice::weighs() const {
-  return order_.may_weigh && at_ == 2 * static_cast<std::size_t>(turns_) && weighed_steps_ > weighed;
+  return order_.may_weigh && at_ == 2 * static_cast<std::size_t>(turns_) &&
+         weighed_steps_ > weighed;
 }
 
-std::optional<std::string> MethodChoice::weigh(double fastest, double of_step) {
-  constexpr double stable = 5.0; // of a step of order 8, times the fastest rate
-  const double h = std::min(weighed_time_ / weighed, stable / fastest);
-  const double as_many = (operations_ - weighed_from_) / of_step, // steps of explicit_rk
-      ratio = as_many * h / weighed_time_;
+std::optional<std::string> MethodChoice::weigh(double of_step,
+                                               const std::function<double()>& fastest) {
+  constexpr double enough = 2.0, stable = 5.0; // of a step of order 8, times the fastest rate
+  const double as_many = (operations_ - weighed_from_) / of_step; // steps of explicit_rk
+  double ratio = as_many / weighed;                               // of steps as long
+  if (ratio > enough)
+    ratio = std::min(ratio, as_many * stable / (fastest() * weighed_time_));
   weighed_steps_ = 0;
   weighed_time_ = 0.0;
   const bool again = again_;
   again_ = false;
-  if (!(ratio > 2.0))
+  if (!(ratio > enough))
     return std::nullopt;
   set_turns(turns_ + 1);
   turn_ = again ? 2.0 * turn_ : 10.0 * as_many;

@@ -2,6 +2,7 @@
 /// `solver.method = "auto"`: with which method a scene begins, and which follow where that one
 /// cannot go on.
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -90,10 +91,10 @@ public:
   /// than its stability allows. Its turn takes ten times the operations of the steps that were
   /// weighed, so that these count little, and twice those of its last turn if radau did no better
   /// at once.
-  /// @param fastest  rate of the equations [1/s]
   /// @param of_step  operations of one step of explicit_rk
+  /// @param fastest  rate of the equations [1/s], asked for where steps of any length would do
   /// @returns why, if so
-  std::optional<std::string> weigh(double fastest, double of_step);
+  std::optional<std::string> weigh(double of_step, const std::function<double()>& fastest);
 
   /// Is the turn of explicit_rk over?
   bool returns() const { return takes_turn() && turn_steps_ >= turn_; }

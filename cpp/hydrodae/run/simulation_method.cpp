@@ -184,8 +184,8 @@ void Simulation::weigh_methods() {
     fall_back(methods_.over(t_));
   if (!methods_.weighs())
     return;
-  const double rate = integrate::fastest_rate(regime_, pattern_, t_, y_, yp_);
-  if (const auto why = methods_.weigh(rate, operations_of_explicit_step()))
+  const auto fastest = [&] { return integrate::fastest_rate(regime_, pattern_, t_, y_, yp_); };
+  if (const auto why = methods_.weigh(operations_of_explicit_step(), fastest))
     fall_back({t_, {Reason::labour, *why}});
 }
 
