@@ -17,7 +17,7 @@ std::string_view name_of(Effect effect); ///< as a message names it
 struct Claim {
   std::string body;
   std::vector<Effect> effects;
-  std::string key;     ///< path of the key that says so: "body.float.volume"
+  std::string key;     ///< path of the key that states it: "body.float.volume"
   std::string by;      ///< in a message: "its 'volume'"
   std::string instead; ///< what to write if another element models them already
   bool part = false;   ///< of the body only: such claims add up
