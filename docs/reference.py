@@ -130,11 +130,11 @@ def nested_tables(table: Table, heading: str) -> str:
 
 def keys_table(keys: Iterable[Key]) -> str:
     """Keys as a table of Markdown."""
-    text = "| key | value | unit | default | allowed | meaning |\n|---|---|---|---|---|---|\n"
+    text = "| key | meaning | value | unit | default | allowed |\n|---|---|---|---|---|---|\n"
     for key in keys:
         default = "required" if key.required else f"`{key.default}`" if key.default else ""
         words = ", ".join(f"`{word}`" for word in key.choices if not key.is_number)
-        cells = [f"`{key.name}`", key.kind_text, key.unit, default, words or key.allowed, key.doc]
+        cells = [f"`{key.name}`", key.doc, key.kind_text, key.unit, default, words or key.allowed]
         text += "| " + " | ".join(map(escaped, cells)) + " |\n"
     return text
 
