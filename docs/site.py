@@ -55,7 +55,8 @@ def gather() -> None:
         copy.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(file, copy)
     for page in (SOURCE / "docs" / "reference").glob("*.md"):
-        page.write_text(KEYS.sub(r'<div class="keys" markdown>\n\n\g<0>\n</div>\n', page.read_text()))
+        text = KEYS.sub(r'<div class="keys" markdown>\n\n\g<0>\n</div>\n', page.read_text())
+        page.write_text(text)
     for path, text in api.pages().items():
         (SOURCE / path).parent.mkdir(exist_ok=True)
         (SOURCE / path).write_text(text)

@@ -41,7 +41,7 @@ def problem(command: Command, repository: Path) -> str:
         more = set(re.findall(r"\[(--?[\w-]+)", command.text)) if command.usage else set()
         if program == "hydrodae":
             wrong = of_hydrodae(words, loosely=command.sentence)
-        elif program == "python":
+        elif program in ("python", "python3"):
             wrong = of_script(words, repository, more, loosely=command.sentence)
         elif program == "hydrodae-solve":
             wrong = ""
