@@ -17,7 +17,7 @@ from unittest import mock
 from tests.commands.find import Command
 
 #: Programs whose words are not checked.
-OTHERS = ("cd", "cmake", "ctest", "git", "pip", "pipx", "c++")
+OTHERS = (".", "cd", "cmake", "ctest", "git", "pip", "pipx", "python3", "c++")
 
 
 class _Parsed(BaseException):
@@ -41,7 +41,7 @@ def problem(command: Command, repository: Path) -> str:
         more = set(re.findall(r"\[(--?[\w-]+)", command.text)) if command.usage else set()
         if program == "hydrodae":
             wrong = of_hydrodae(words, loosely=command.sentence)
-        elif program in ("python", "python3"):
+        elif program == "python":
             wrong = of_script(words, repository, more, loosely=command.sentence)
         elif program == "hydrodae-solve":
             wrong = ""
