@@ -23,12 +23,18 @@ MADE = "<!-- Made by docs/reference.py from the fields of the kernel; do not edi
 
 INTRODUCTION = """# Reference of case files
 
-A case is one TOML file. Units are SI, world axes have z up, and z = 0 is the still water line. Only
-keys that end in `_deg` are in degrees. Unknown keys and values out of range are errors that name
-file, line, column and the nearest valid name. `title` is the only key outside tables.
+This page lists the tables of a case file, and links their keys. A case is one TOML file. Units are
+SI, world axes have z up, and z = 0 is the still water line. Only keys that end in `_deg` are in
+degrees. Unknown keys and values out of range are errors that name file, line, column and the
+nearest valid name. `title` is the only key outside tables.
 
-`hydrodae keys` prints what stands here: `hydrodae keys`, `hydrodae keys solver`,
-`hydrodae keys force pto_linear`.
+`hydrodae keys` prints what stands here:
+
+```sh
+hydrodae keys
+hydrodae keys solver
+hydrodae keys force pto_linear
+```
 
 | table | meaning |
 |---|---|
@@ -124,11 +130,11 @@ def nested_tables(table: Table, heading: str) -> str:
 
 def keys_table(keys: Iterable[Key]) -> str:
     """Keys as a table of Markdown."""
-    text = "| key | value | unit | default | allowed | meaning |\n|---|---|---|---|---|---|\n"
+    text = "| key | meaning | value | unit | default | allowed |\n|---|---|---|---|---|---|\n"
     for key in keys:
         default = "required" if key.required else f"`{key.default}`" if key.default else ""
         words = ", ".join(f"`{word}`" for word in key.choices if not key.is_number)
-        cells = [f"`{key.name}`", key.kind_text, key.unit, default, words or key.allowed, key.doc]
+        cells = [f"`{key.name}`", key.doc, key.kind_text, key.unit, default, words or key.allowed]
         text += "| " + " | ".join(map(escaped, cells)) + " |\n"
     return text
 

@@ -25,6 +25,9 @@ from hydrodae.support.extras import install_command
 ROOT = Path(__file__).resolve().parent.parent
 SOURCE = ROOT / "build" / "site_source"
 
+KEYS = re.compile(r"^\| key \|.*\n(?:\|.*\n)+", re.MULTILINE)
+"""A table of keys; site.css gives its second column, the meaning, room on a telephone."""
+
 
 def pages() -> list[Path]:
     """README, docs with the reference, and what each case says."""
@@ -51,6 +54,9 @@ def gather() -> None:
         copy = SOURCE / file.relative_to(ROOT)
         copy.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(file, copy)
+    for page in (SOURCE / "docs" / "reference").glob("*.md"):
+        text = KEYS.sub(r'<div class="keys" markdown>\n\n\g<0>\n</div>\n', page.read_text())
+        page.write_text(text)
     for path, text in api.pages().items():
         (SOURCE / path).parent.mkdir(exist_ok=True)
         (SOURCE / path).write_text(text)

@@ -17,7 +17,7 @@ from unittest import mock
 from tests.commands.find import Command
 
 #: Programs whose words are not checked.
-OTHERS = ("cd", "cmake", "ctest", "git", "pip", "pipx", "c++")
+OTHERS = (".", "cd", "cmake", "ctest", "git", "pip", "pipx", "python3", "c++")
 
 
 class _Parsed(BaseException):

@@ -33,13 +33,27 @@ GIVEN = {"docs/databases.md": {"omega": [2.0, 2.5, 3.0, 3.5]}}
 #: Pages whose calls of hydrodae run one after the other; `cd` changes the folder.
 RUN_COMMANDS = (
     "docs/architecture.md",
+    "docs/axes.md",
+    "docs/cases.md",
     "docs/commands.md",
-    "docs/first_steps.md",
     "docs/control.md",
-    "docs/view.md",
-    "docs/limits.md",
+    "docs/conventions.md",
+    "docs/coordinates.md",
+    "docs/databases.md",
     "docs/faq.md",
+    "docs/first_steps.md",
+    "docs/forces.md",
     "docs/glossary.md",
+    "docs/install.md",
+    "docs/ladders.md",
+    "docs/limits.md",
+    "docs/methods.md",
+    "docs/performance.md",
+    "docs/reference/README.md",
+    "docs/spectral.md",
+    "docs/sweeps.md",
+    "docs/theory.md",
+    "docs/view.md",
 )
 #: Blocks that a test of their own runs, by page and language: how many there are.
 RUN_APART = {
@@ -91,6 +105,17 @@ def test_every_block_is_run_or_says_why_not(repository: Path) -> None:
             if not (block.reason or name in by_page or told):
                 found[where] = found.get(where, 0) + 1
     assert found == RUN_APART
+
+
+def test_every_page_begins_with_its_purpose_and_an_example(repository: Path) -> None:
+    """A paragraph, and code within one screen of text."""
+    for page in [*(repository / "docs").glob("*.md"), repository / "docs/reference/README.md"]:
+        text = re.sub(r"^<!--.*?-->\n\n", "", page.read_text())
+        title, purpose, _ = text.split("\n\n", 2)
+        assert title.startswith("# "), page.name
+        assert re.match(r"[A-Z`]", purpose), page.name
+        start = "\n".join(text.splitlines()[:25])
+        assert re.search(r"^```(sh|python|toml)$", start, re.MULTILINE), page.name
 
 
 def test_no_code_stands_in_indented_blocks(repository: Path) -> None:
