@@ -15,6 +15,7 @@
 
 #include <cmath>
 
+#include "hydrodae/core/types.h"
 #include "hydrodae/sea/component.h"
 
 namespace hydrodae::sea {
