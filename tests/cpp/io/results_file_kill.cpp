@@ -61,10 +61,11 @@ Found read_all(const std::string& path) {
       found.rows = size[0];
     CHECK(size[0] >= found.rows);
     bool equal = true;
-    for (std::size_t i = 0; i < values.size(); ++i)
-      equal = equal &&
-              values[i] == static_cast<double>(i / width +
-                                               (channel.path == "time" ? 0 : offset + i % width));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const auto row = i / width, column = i % width;
+      const auto expected = channel.path == "time" ? row : row + offset + column;
+      equal = equal && values[i] == static_cast<double>(expected);
+    }
     CHECK_MESSAGE(equal, channel.path << " in " << path);
     if (channel.path != "time")
       offset += width;
