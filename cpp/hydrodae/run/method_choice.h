@@ -74,7 +74,7 @@ public:
   void next(const SolverError& error);
 
   /// Takes an accepted step of the length h [s] at the rate of the motion [1/s], after so many
-  /// operations of the method since its start.
+  /// operations since the start of the run.
   /// @param own the method chose its end; else h is no evidence
   void accept(double h, double rate, bool own, double operations);
 

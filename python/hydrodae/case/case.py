@@ -25,7 +25,7 @@ _BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
 _BARE_WORD = re.compile(r"[A-Za-z_./][A-Za-z0-9_./+-]*")  # as the kernel has it
 
 
-class Teller(Protocol):
+class Origin(Protocol):
     """Names what made the lines of a text, in errors of the kernel."""
 
     def error(self, error: CaseError) -> CaseError:
@@ -55,7 +55,7 @@ class Case:
     libraries : sequence of paths, optional
         Shared libraries with the laws of forces of type ``library_load`` and ``library_wrench``
         (cpp/hydrodae/element/plugin.h). They are programs: load what you trust only.
-    tell : Teller, optional
+    origin : Origin, optional
         Says where errors are in a text that nobody wrote.
 
     Raises
@@ -77,14 +77,14 @@ class Case:
         directory: str | os.PathLike[str] = ".",
         values: Mapping[str, Any] | None = None,
         libraries: Sequence[str | os.PathLike[str]] = (),
-        tell: Teller | None = None,
+        origin: Origin | None = None,
     ) -> None:
         if (text is None) == (path is None):
             raise TypeError("a case needs either a text or a path")
         self._text = text
         self._path = None if path is None else Path(path)
         self._directory = Path(directory)
-        self._tell = tell
+        self._origin = origin
         self._libraries = [os.fspath(path) for path in libraries]
         self._overrides = {key: to_toml(value, key) for key, value in (values or {}).items()}
         self._scene = self._load(self._overrides)
@@ -246,9 +246,9 @@ class Case:
             _refuse_other_kind(self._path)
             return _core.load_case(str(self._path), overrides)
         assert self._text is not None
-        if self._tell is None:
+        if self._origin is None:
             return _core.parse_case(self._text, str(self._directory), overrides)
-        return _parse_told(self._text, str(self._directory), overrides, self._tell)
+        return _parse_from(self._text, str(self._directory), overrides, self._origin)
 
 
 def _refuse_other_kind(path: Path) -> None:
@@ -356,15 +356,15 @@ def parse_assignment(text: str) -> tuple[str, Any]:
         ) from None
 
 
-def _parse_told(text: str, directory: str, overrides: dict[str, str], tell: Teller) -> Scene:
-    """Parse a case whose errors, also the later ones about the scene, go through `tell`."""
+def _parse_from(text: str, directory: str, overrides: dict[str, str], origin: Origin) -> Scene:
+    """Parse a case whose errors, also the later ones about the scene, go through `origin`."""
     from hydrodae import _core
 
     try:
         scene = _core.parse_case(text, directory, overrides)
     except CaseError as error:
-        raise tell.error(error) from None
-    return scene.with_places({key: tell.place(place) for key, place in scene.places.items()})
+        raise origin.error(error) from None
+    return scene.with_places({key: origin.place(place) for key, place in scene.places.items()})
 
 
 def _key(key: Any, context: str) -> str:

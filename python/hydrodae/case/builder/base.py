@@ -45,7 +45,7 @@ class SceneBase:
             The scene cannot be used; the message names the call that is wrong.
         """
         return Case(
-            self.to_toml(), directory=self._directory, values=values, tell=Calls(self._entries)
+            self.to_toml(), directory=self._directory, values=values, origin=Calls(self._entries)
         )
 
     def save(self, path: str | os.PathLike[str]) -> Case:

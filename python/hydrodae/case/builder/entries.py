@@ -32,7 +32,7 @@ class Entry:
     label: str
     text: str
 
-    def tell(self, error: CaseError) -> CaseError:
+    def locate(self, error: CaseError) -> CaseError:
         """Return what the kernel says about this entry as an error that names the call."""
         text = error.fault.replace(f" in {self.label}", "", 1).replace(f" of {self.label}", "", 1)
         table, _, name = self.label.strip("[]").partition("]] ")
@@ -53,7 +53,7 @@ class Calls:
         entry = self._at(error.line)
         if entry is None:
             return CaseError(error.fault, key=error.key, file="scene")
-        return entry.tell(error)
+        return entry.locate(error)
 
     def place(self, place: tuple[str, int, int]) -> tuple[str, int, int]:
         """Return the call in place of a line of the text."""
@@ -105,7 +105,7 @@ def check_entry(entry: Entry, kind: Table, keys: Mapping[str, Any]) -> None:
     try:
         _core.check_tables(entry.text)
     except CaseError as error:
-        raise entry.tell(error) from None
+        raise entry.locate(error) from None
 
 
 def hint(wanted: str, names: list[str]) -> str:
