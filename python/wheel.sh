@@ -18,15 +18,17 @@ fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-export HDF5_ROOT=${HDF5_ROOT:-$root/build/hdf5}
 if (($# > 1)); then
   cp "$2" "$work/"
 else
-  [[ -d $HDF5_ROOT ]] || bash "$root/python/hdf5.sh" "$HDF5_ROOT" "${HDF5_SOURCE:-}"
+  if [[ -z ${HDF5_ROOT:-} ]]; then
+    # Outside the clone: CMake writes no run path to a folder inside it.
+    export HDF5_ROOT=${XDG_CACHE_HOME:-$HOME/.cache}/hydrodae/hdf5
+    [[ -d $HDF5_ROOT ]] || bash "$root/python/hdf5.sh" "$HDF5_ROOT" "${HDF5_SOURCE:-}"
+  fi
   "$python" -m pip wheel -q --no-deps --no-build-isolation -w "$work" "$root"
 fi
-# CMake writes no run path to a folder below build/.
-LD_LIBRARY_PATH=$HDF5_ROOT/lib "$python" "$root/python/repair.py" "$work"/*.whl "$work/whole"
+"$python" "$root/python/repair.py" "$work"/*.whl "$work/whole"
 mkdir -p "$folder"
 cp "$work"/whole/*.whl "$folder/"
 ls -lh "$folder"/*.whl
