@@ -192,8 +192,8 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
     data.reference_points.update(zip(names, control.points, strict=False))
     _attach_hydrostatics(data, stem, control, names, length, every)
     if flexible := [label for label in coordinates if label not in rigid(coordinates)]:
-        name, path = names[0], beside(stem, ".hst")
-        stiffness = _stiffness(path, control, np.arange(1.0, 7.0 + len(flexible)), every)
+        name, file = names[0], beside(stem, ".hst")
+        stiffness = _stiffness(file, control, np.arange(1.0, 7.0 + len(flexible)), every)
         turns = np.isin(np.arange(len(stiffness)), (3, 4, 5))
         units = length ** (2.0 + turns[:, None] + turns)
         data.mode_stiffness[name] = rho * gravity * units * stiffness
