@@ -22,6 +22,7 @@ namespace {
 system::BodyData make_body(const model::Body& body, const Pose& pose) {
   system::BodyData b;
   b.name = body.name;
+  b.is_mode = body.is_mode();
   b.mass = body.mass.value;
   b.inertia = model::inertia_tensor(body);
   b.reference = body.center_of_gravity;
@@ -82,7 +83,9 @@ system::System build(const model::Scene& scene, bool with_excitation) {
   select_rows(s);
   add_hydro(scene, s);
   add_constraints(scene, s);
+  add_attachments(scene, s);
   add_elements(scene, s);
+  set_mode_loads(scene, s);
   add_morison(scene, s);
   add_hulls(scene, with_excitation, s);
   for (const model::Marker& m : scene.markers)

@@ -14,6 +14,7 @@
 #include "hydrodae/math/bspline.h"
 #include "hydrodae/math/dense_cholesky.h"
 #include "hydrodae/math/sets.h"
+#include "hydrodae/model/deformation.h"
 #include "hydrodae/model/motion.h"
 
 namespace hydrodae::build {
@@ -28,6 +29,11 @@ void number_coordinates(const model::Scene& scene, system::System& s) {
       continue;
     system::HydroBody hb;
     hb.body = static_cast<int>(i);
+    hb.carrier = static_cast<int>(h.bodies.size());
+    if (const auto& part = scene.bodies[i].part)
+      for (std::size_t k = 0; k < h.bodies.size(); ++k)
+        if (s.bodies[static_cast<std::size_t>(h.bodies[k].body)].name == part->body)
+          hb.carrier = static_cast<int>(k);
     hb.moving.fill(-1);
     const std::array<bool, 6> moving = model::moving_axes(scene.bodies[i]);
     for (int c = 0; c < 6; ++c) {
@@ -99,7 +105,8 @@ void note_uncovered(const model::Scene& scene, const std::vector<std::string>& o
   const std::vector<int> place = all_places(scene, s.hydro, outputs);
   for (std::size_t k = 0; k < place.size(); ++k)
     if (const system::HydroBody& hb = s.hydro.bodies[k / 6]; place[k] < 0 && is_wet(scene, hb))
-      s.hydro.uncovered.push_back(hydro_label(scene, hb, static_cast<int>(k % 6)));
+      if (const std::string label = hydro_label(scene, hb, static_cast<int>(k % 6)); !label.empty())
+        s.hydro.uncovered.push_back(label);
 }
 
 /// Real form of the fit: a pole p = a + i b with Im > 0 becomes two states (Re z, Im z); blocks
@@ -178,7 +185,7 @@ int label_index(const std::vector<std::string>& labels, const std::string& label
 }
 
 std::string hydro_label(const model::Scene& scene, const system::HydroBody& hb, int c) {
-  return *scene.bodies[hb.body].hydro + "." + std::string(model::coordinate_names[c]);
+  return model::hydro_label(scene, scene.bodies[hb.body], static_cast<std::size_t>(c));
 }
 
 // Else a push moves the body towards the hand. Units differ: judged with a unit diagonal, and each

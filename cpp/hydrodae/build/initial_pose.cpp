@@ -5,6 +5,7 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/joint/path.h"
 #include "hydrodae/math/rotation.h"
+#include "hydrodae/model/deformation.h"
 #include "hydrodae/model/motion.h"
 
 namespace hydrodae::build {
@@ -127,6 +128,23 @@ void check_locked(const model::Body& body, const Pose& pose) {
                            std::string(model::coordinate_names[c]) + ", which its motion locks");
 }
 
+/// Where its body has it; turns by modes are small.
+Pose attached(const model::Scene& scene, const model::Attachment& place,
+              const std::vector<Pose>& poses) {
+  const auto body = static_cast<std::size_t>(body_index(scene, place.body));
+  Vector3 arm = place.point - scene.bodies[body].center_of_gravity, turn = Vector3::Zero();
+  const std::vector<std::size_t> modes = model::modes_of(scene, place.body);
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    const double amplitude = scene.modes[modes[k]].initial.amplitude;
+    arm += amplitude * place.displacement[k];
+    if (!place.rotation.empty())
+      turn += amplitude * place.rotation[k];
+  }
+  const Pose& base = poses[body];
+  return {base.r + rotation_matrix<double>(base.p) * arm,
+          quaternion_product(base.p, quaternion_from_rotation_vector(turn))};
+}
+
 } // namespace
 
 int body_index(const model::Scene& scene, const std::string& name) {
@@ -159,6 +177,9 @@ std::vector<Pose> initial_poses(const model::Scene& scene) {
     apply_joint_start(scene, j, poses);
   for (std::size_t i = 0; i < poses.size(); ++i)
     check_locked(scene.bodies[i], poses[i]);
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    if (const auto& part = scene.bodies[i].part; part && !part->mode)
+      poses[i] = attached(scene, scene.attachments[part->entry], poses);
   return poses;
 }
 

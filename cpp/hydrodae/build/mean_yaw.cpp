@@ -48,8 +48,10 @@ bool take_mean_yaw(const model::Scene& scene, system::System& s) {
                            "along world axes, and the axes of its hydrodynamics are turned; free "
                            "both, or hold one by a joint");
   }
-  if (changed)
+  if (changed) {
     set_hydrostatics(scene, s);
+    set_mode_loads(scene, s);
+  }
   return changed;
 }
 

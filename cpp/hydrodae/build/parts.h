@@ -62,6 +62,13 @@ int joint_motion(const system::System& system, const std::string& joint,
 /// (build_joints.cpp). Throws ModelError.
 void select_rows(system::System& system);
 
+/// The conditions that hold attachments to their bodies (deformation.cpp).
+void add_attachments(const model::Scene& scene, system::System& system);
+
+/// Stiffness and damping of modes, and their hydrostatics (deformation.cpp); made again by each
+/// call.
+void set_mode_loads(const model::Scene& scene, system::System& system);
+
 /// Couplers, drives, stops and one-sided distances (build_constraints.cpp). Throws ModelError.
 void add_constraints(const model::Scene& scene, system::System& system);
 

@@ -20,7 +20,8 @@ std::string degrees(double angle) { return number_text(angle * 180.0 / pi) + " d
 std::vector<Meeting> meetings(const model::Scene& scene, const system::System& s) {
   std::vector<Meeting> out(s.hydro.bodies.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const system::HydroBody& hb = s.hydro.bodies[i];
+    const system::HydroBody& hb =
+        s.hydro.bodies[static_cast<std::size_t>(s.hydro.bodies[i].carrier)];
     const system::BodyData& b = s.bodies[static_cast<std::size_t>(hb.body)];
     out[i] = {hb.yaw, follows_yaw(s, hb), scene.sea.phase == "fixed" ? b.position : b.reference,
               b.reference};
@@ -110,9 +111,8 @@ struct Source {
 std::vector<std::string> labels_of(const model::Scene& scene, const system::System& s) {
   std::vector<std::string> labels;
   for (const system::HydroBody& hb : s.hydro.bodies)
-    for (std::string_view dof : model::coordinate_names)
-      labels.push_back(*scene.bodies[static_cast<std::size_t>(hb.body)].hydro + "." +
-                       std::string(dof));
+    for (int c = 0; c < 6; ++c)
+      labels.push_back(hydro_label(scene, hb, c));
   return labels;
 }
 

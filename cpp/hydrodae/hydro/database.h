@@ -2,15 +2,21 @@
 /// The prepared hydrodynamic database as the simulation needs it: plain data read from `hydro.h5`.
 /// Phasors are x(t) = Re(X e^{+i w t}); rows are forces, columns are motions; SI units.
 
+#include <array>
 #include <complex>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hydrodae/core/types.h"
 
 namespace hydrodae::hydro {
+
+/// Names of the rigid motions of a body in labels "<body>.<dof>"; other names are modes.
+inline constexpr std::array<std::string_view, 6> rigid_dofs = {"surge", "sway",  "heave",
+                                                               "roll",  "pitch", "yaw"};
 
 /// Linear hydrostatics of one body about its reference point, buoyancy only.
 struct Hydrostatics {
@@ -23,6 +29,9 @@ struct DatabaseBody {
   std::string name;
   Vector3 reference_point = Vector3::Zero(); ///< world point about which A, B and F are given [m]
   std::optional<Hydrostatics> hydrostatics;  ///< absent when the source does not hold it
+  std::vector<std::string> modes;            ///< names of its coordinates beyond the rigid six
+  /// Of hydrostatics over the six and the modes (6 + n, 6 + n); of the six alone as above.
+  MatrixX mode_stiffness;
 };
 
 /// Exponential radiation memory: z' = p z + B U, f_rad = -Re(C z); the complex poles have Im > 0

@@ -14,6 +14,7 @@
 #include "hydrodae/io/record_file.h"
 #include "hydrodae/io/sha256.h"
 #include "hydrodae/io/toml_table.h"
+#include "hydrodae/model/deformation.h"
 #include "hydrodae/model/joint_keys.h"
 #include "hydrodae/model/mass.h"
 #include "hydrodae/model/scene_tables.h"
@@ -276,6 +277,7 @@ model::Scene parse(const std::string& text, const std::string& directory,
   find_fmus(scene, directory);
   try {
     model::fill_in_masses(scene);
+    model::add_parts(scene);
     model::check(scene);
   } catch (const ModelError& error) {
     throw model::located(scene, error);

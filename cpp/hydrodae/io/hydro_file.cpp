@@ -67,10 +67,21 @@ std::vector<hydro::DatabaseBody> read_bodies(const Input& file,
   for (const auto& [index, name] : order)
     bodies.push_back(read_body(file, name));
   for (const std::string& label : coordinates) {
-    const std::string owner = label.substr(0, label.rfind('.'));
+    const std::string owner = label.substr(0, label.rfind('.')),
+                      dof = label.substr(label.rfind('.') + 1);
     const auto owns = [&](const hydro::DatabaseBody& body) { return body.name == owner; };
-    if (std::none_of(bodies.begin(), bodies.end(), owns))
+    const auto body = std::find_if(bodies.begin(), bodies.end(), owns);
+    if (body == bodies.end())
       file.refuse("/coordinates", in_quotes(label) + " belongs to no group of /bodies");
+    if (std::find(hydro::rigid_dofs.begin(), hydro::rigid_dofs.end(), dof) ==
+        hydro::rigid_dofs.end())
+      body->modes.push_back(dof);
+  }
+  for (hydro::DatabaseBody& body : bodies) {
+    const std::size_t n = 6 + body.modes.size();
+    const std::string stiffness = "/bodies/" + body.name + "/mode_stiffness";
+    if (n > 6)
+      body.mode_stiffness = file.matrix(stiffness, n, n);
   }
   return bodies;
 }

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "hydrodae/core/text.h"
+#include "hydrodae/model/deformation.h"
 #include "hydrodae/model/motion.h"
 
 namespace hydrodae::model {
@@ -80,7 +81,13 @@ bool coincide(const Vector3& a, const Vector3& b) {
 void check(const Scene& scene) {
   if (scene.bodies.empty())
     throw ModelError("body", "the case has no [[body]]");
-  check_names(names_of(scene.bodies), "body");
+  std::vector<std::string> bodies; // of the case
+  for (const Body& body : scene.bodies)
+    if (!body.part)
+      bodies.push_back(body.name);
+  check_names(bodies, "body");
+  check_names(names_of(scene.modes), "mode");
+  check_names(names_of(scene.attachments), "attachment");
   check_names(names_of(scene.joints), "joint");
   check_names(names_of(scene.constraints), "constraint");
   check_reaction_names(scene);
@@ -96,8 +103,10 @@ void check(const Scene& scene) {
 
   for (const Body& body : scene.bodies) {
     if (body.name == ground)
-      throw ModelError("body.ground.name", "'ground' is the name of the fixed world");
-    check_body(scene, body);
+      throw ModelError(body.part ? "attachment.ground.name" : "body.ground.name",
+                       "'ground' is the name of the fixed world");
+    if (!body.part)
+      check_body(scene, body);
   }
   for (const Joint& joint : scene.joints)
     check_joint(scene, joint);
@@ -116,8 +125,10 @@ void check(const Scene& scene) {
   check_sea(scene);
   for (const sea::Gauge& gauge : scene.gauges)
     check_gauge(scene, gauge);
-  if (scene.hydro && scene.database)
+  if (scene.hydro && scene.database) {
+    check_parts(scene);
     check_database(scene);
+  }
   for (const PoseTable& table : scene.pose_tables)
     check_pose_table(scene, table);
 }

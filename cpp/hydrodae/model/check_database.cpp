@@ -124,7 +124,7 @@ void check_database(const Scene& scene) {
                                                 " m/s2");
   std::vector<std::string> used;
   for (const Body& body : scene.bodies) {
-    if (!body.hydro)
+    if (!body.hydro || body.part)
       continue;
     check_wet_body(database, body);
     if (std::find(used.begin(), used.end(), *body.hydro) != used.end())

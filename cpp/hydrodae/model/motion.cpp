@@ -5,6 +5,7 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/hydro/coverage.h"
 #include "hydrodae/joint/types.h"
+#include "hydrodae/model/deformation.h"
 
 namespace hydrodae::model {
 namespace {
@@ -103,7 +104,7 @@ std::vector<std::string> moving_coordinates(const Scene& scene) {
     const Six moving = moving_axes(body);
     for (std::size_t i = 0; i < 6; ++i)
       if (moving[i])
-        labels.push_back(*body.hydro + "." + std::string(coordinate_names[i]));
+        labels.push_back(hydro_label(scene, body, i));
   }
   return labels;
 }

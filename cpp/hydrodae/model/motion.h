@@ -11,8 +11,7 @@
 
 namespace hydrodae::model {
 
-inline constexpr std::array<std::string_view, 6> coordinate_names = {"surge", "sway",  "heave",
-                                                                     "roll",  "pitch", "yaw"};
+inline constexpr std::array<std::string_view, 6> coordinate_names = hydro::rigid_dofs;
 
 /// Free coordinates of a body: translations along the world axes, rotations about its own.
 /// Throws ModelError (key "body.<name>.motion") on words that are unknown, doubled or mixed, and on

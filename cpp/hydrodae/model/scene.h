@@ -34,6 +34,7 @@
 #include "hydrodae/line/rope.h"
 #include "hydrodae/model/constraint.h"
 #include "hydrodae/model/controller.h"
+#include "hydrodae/model/mode.h"
 #include "hydrodae/model/pose_table.h"
 #include "hydrodae/model/solver_options.h"
 #include "hydrodae/sea/gauge.h"
@@ -125,6 +126,14 @@ struct BodyInitial {
   }
 };
 
+/// What a body that is not of the case stands for: a mode of another body, as the coordinate of
+/// translation along x, or an attachment on it.
+struct DeformablePart {
+  bool mode = false;
+  std::size_t entry = 0; ///< in Scene::modes or Scene::attachments
+  std::string body;      ///< the one that deforms
+};
+
 /// Table [[body]].
 struct Body {
   static constexpr std::string_view doc = "A rigid body.";
@@ -146,6 +155,8 @@ struct Body {
   bool waves_by_mesh() const { return froude_krylov == "mesh"; }
   std::shared_ptr<const hull::Mesh> hull; ///< read from `mesh`, about the centre of gravity
   BodyInitial initial;
+  std::optional<DeformablePart> part; ///< not of the case: what it stands for (deformation.h)
+  bool is_mode() const { return part && part->mode; }
 
   template <class B = Body> static Fields<B> fields() {
     return {
@@ -326,6 +337,8 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<Joint> joints;
   std::vector<Constraint> constraints;
+  std::vector<Mode> modes;
+  std::vector<Attachment> attachments;
   std::vector<Marker> markers;
   Forces forces;
   std::vector<water::Morison> morison;

@@ -19,6 +19,8 @@ template <class Visit> void for_each_table(const Visit& visit) {
   visit("sea", &Scene::sea);
   visit("wave", &Scene::waves);
   visit("body", &Scene::bodies);
+  visit("mode", &Scene::modes);
+  visit("attachment", &Scene::attachments);
   visit("joint", &Scene::joints);
   visit("constraint", &Scene::constraints);
   visit("marker", &Scene::markers);

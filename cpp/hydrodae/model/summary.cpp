@@ -8,7 +8,17 @@
 namespace hydrodae::model {
 namespace {
 
-void write_body(std::ostream& out, const Body& body) {
+void write_body(std::ostream& out, const Scene& scene, const Body& body) {
+  if (body.is_mode()) {
+    const Mode& mode = scene.modes[body.part->entry];
+    out << "    " << mode.name << ": mode of " << mode.body << ", " << number_text(mode.mass)
+        << " kg, " << number_text(mode.stiffness) << " N/m\n";
+    return;
+  }
+  if (body.part) {
+    out << "    " << body.name << ": attachment on " << body.part->body << '\n';
+    return;
+  }
   out << "    " << body.name << ": " << joined(body.motion);
   if (moves(body))
     out << ", " << number_text(body.mass.value) << " kg";
@@ -106,7 +116,7 @@ std::string summary(const Scene& scene) {
   out << (scene.title.empty() ? "(no title)" : scene.title) << '\n';
   out << "  bodies:\n";
   for (const Body& body : scene.bodies)
-    write_body(out, body);
+    write_body(out, scene, body);
   if (!scene.joints.empty())
     out << "  joints:\n";
   for (const Joint& joint : scene.joints)

@@ -55,6 +55,13 @@ void Recorder::check_paths() const {
 
 void Recorder::make_channels() {
   for (const BodyData& b : s_.bodies) {
+    if (b.is_mode) {
+      const std::string head = "modes/" + b.name + "/";
+      add_channel(head + "amplitude", 1, "m", "-", "Of the mode, in the scale of its shape.");
+      add_channel(head + "rate", 1, "m/s", "-", "Of the amplitude.");
+      add_channel(head + "acceleration", 1, "m/s2", "-", "Of the amplitude.");
+      continue;
+    }
     const std::string head = "bodies/" + b.name + "/";
     add_channel(head + "position", 3, "m", "world", "Centre of gravity.");
     add_channel(head + "orientation", 4, "-", "world",
@@ -105,6 +112,8 @@ void Recorder::make_channels() {
     describe_marker(j.A);
   }
   for (const CouplerData& c : s_.couplers) {
+    if (c.hidden)
+      continue;
     const bool angle = s_.motions[c.terms.front().motion].motion.is_angle();
     add_channel("constraints/" + c.name + "/reaction", 1, angle ? "N m" : "N", "-",
                 "Load that the constraint puts on its (first) coordinate.");
@@ -130,6 +139,10 @@ void Recorder::make_channels() {
   for (const ComponentLoad& load : o.loads) {
     const std::string head =
         "forces/" + o.components[load.component] + "/" + s_.bodies[load.body].name + "/";
+    if (s_.bodies[load.body].is_mode) {
+      add_channel(head + "load", 1, "N", "-", "On the amplitude of the mode.");
+      continue;
+    }
     add_channel(head + "force", 3, "N", "world", "Force on the body.");
     add_channel(head + "moment", 3, "N m", "world",
                 "Moment on the body about its centre of gravity.");
@@ -161,6 +174,12 @@ void Recorder::fill_bodies(double*& out) {
   for (std::size_t i = 0; i < s_.bodies.size(); ++i) {
     const BodyData& b = s_.bodies[i];
     const BodyState<double>& state = states[i];
+    if (b.is_mode) {
+      *out++ = state.r[0] - b.reference[0];
+      *out++ = state.v[0];
+      *out++ = state.v_dot[0];
+      continue;
+    }
     put(out, state.r);
     const Eigen::Quaterniond q(state.R);
     for (double c : {q.w(), q.x(), q.y(), q.z()})
@@ -194,8 +213,9 @@ void Recorder::fill_joints(double*& out) {
     put(out, o.reactions[j].head<3>());
     put(out, o.reactions[j].tail<3>());
   }
-  for (double multiplier : o.constraints)
-    *out++ = multiplier;
+  for (std::size_t k = 0; k < s_.couplers.size(); ++k)
+    if (!s_.couplers[k].hidden)
+      *out++ = o.constraints[k];
 }
 
 // r + R s,   v + R (w x s),   v' + R (w' x s + w x (w x s)), with s, w, w' in body axes.
@@ -259,6 +279,10 @@ void Recorder::fill(double t, std::span<double> row) {
   fill_joints(out);
   fill_markers(out);
   for (const ComponentLoad& load : seen().loads) {
+    if (s_.bodies[load.body].is_mode) {
+      *out++ = load.load[0];
+      continue;
+    }
     put(out, load.load.head<3>());
     put(out, load.load.tail<3>());
   }

@@ -53,9 +53,11 @@ void add_bodies(const Regime& s, const system::Workspace<double>& ws, const Vect
     out.places.emplace_back(ws.bodies[i].r);
     out.rotations.emplace_back(xi.tail<3>());
     for (int k = 0; k < b.n_active; ++k)
-      out.coordinates.push_back("bodies/" + b.name + "/" +
-                                std::string(model::coordinate_names[static_cast<std::size_t>(
-                                    b.active[static_cast<std::size_t>(k)])]));
+      out.coordinates.push_back(
+          b.is_mode ? "modes/" + b.name + "/amplitude"
+                    : "bodies/" + b.name + "/" +
+                          std::string(model::coordinate_names[static_cast<std::size_t>(
+                              b.active[static_cast<std::size_t>(k)])]));
   }
 }
 
@@ -75,10 +77,10 @@ void add_hydro_map(const model::Scene& scene, const Regime& s, const system::Wor
         row[b.u0 - s.u0 + k] =
             by_velocity(static_cast<Eigen::Index>(c), b.active[static_cast<std::size_t>(k)]);
       add_row(out.hydro_map, row);
-      out.hydro_labels.push_back(*scene.bodies[body].hydro + "." +
-                                 std::string(model::coordinate_names[c]));
-      out.hydro_yaws.push_back(hb.yaw);
-      out.hydro_points.push_back(b.position);
+      out.hydro_labels.push_back(build::hydro_label(scene, hb, static_cast<int>(c)));
+      const system::HydroBody& carrier = s.hydro.bodies[static_cast<std::size_t>(hb.carrier)];
+      out.hydro_yaws.push_back(carrier.yaw); // by which the waves meet it
+      out.hydro_points.push_back(s.bodies[static_cast<std::size_t>(carrier.body)].position);
     }
   }
 }

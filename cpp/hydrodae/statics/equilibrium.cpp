@@ -1,5 +1,6 @@
 #include "hydrodae/statics/equilibrium.h"
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "hydrodae/build/assemble.h"
@@ -64,8 +65,9 @@ std::string instability(const LinearMatrices& m, const VectorX& scale) {
   if (free.cols() == 0)
     return "";
   const MatrixX K = free.transpose() * scale.asDiagonal() * m.stiffness * scale.asDiagonal() * free;
-  const VectorX values = symmetric_eigenvalues(0.5 * (K + K.transpose()));
-  return values[0] < -1e-6 * values.cwiseAbs().maxCoeff()
+  // The hydrostatics of modes have no potential by themselves: K need not be symmetric.
+  const VectorX values = Eigen::EigenSolver<MatrixX>(K, false).eigenvalues().real();
+  return values.minCoeff() < -1e-6 * values.cwiseAbs().maxCoeff()
              ? "the equilibrium is unstable: the smallest displacement moves the scene away from it"
              : "";
 }

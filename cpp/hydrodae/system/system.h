@@ -34,8 +34,9 @@ namespace hydrodae::system {
 struct BodyData {
   enum class Rotation { locked, about_axis, free };
   std::string name;
-  double mass = 0.0;                          ///< [kg]
-  Matrix3 inertia = Matrix3::Zero();          ///< about the centre of gravity, body axes [kg m2]
+  bool is_mode = false;              ///< an amplitude of a body that deforms (model/deformation.h)
+  double mass = 0.0;                 ///< [kg]
+  Matrix3 inertia = Matrix3::Zero(); ///< about the centre of gravity, body axes [kg m2]
   Vector3 reference = Vector3::Zero();        ///< centre of gravity in the reference pose [m]
   Vector3 position = Vector3::Zero();         ///< start, and for ever along locked translations [m]
   Vector4 orientation{1, 0, 0, 0};            ///< start, and for ever if the rotation is locked
@@ -118,6 +119,7 @@ struct CouplerData : Row {
   bool velocity_level = false; ///< then it has no mu
   bool keeps_start = false;    ///< the offset is what the terms sum up to at the start
   int of_switch = -1;          ///< in System::switches, -1: it always holds
+  bool hidden = false;         ///< holds an attachment; not reported
 };
 
 /// Where a law is joined to the bodies: along a motion, on a body, or between the markers of a

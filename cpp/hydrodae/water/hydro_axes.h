@@ -28,6 +28,7 @@ enum class HydroAxes { body, mean, yaw };
 /// its mean yaw, that of the start or equilibrium pose.
 struct HydroBody {
   int body = 0;
+  int carrier = 0; ///< among the hydrodynamic bodies: of a mode the body that deforms, else itself
   double yaw = 0.0, cos_yaw = 1.0, sin_yaw = 0.0; ///< [rad], [-], [-]
   bool turned = false;                            ///< yaw != 0
   std::array<int, 6> moving{}; ///< index into U of each of the six coordinates, -1: does not move

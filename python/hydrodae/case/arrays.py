@@ -24,7 +24,18 @@ from hydrodae.hdb.database.coordinates import body_name
 Array = NDArray[np.float64]
 
 #: Tables of which every unit has its own entries; the others are of the whole array.
-OF_UNITS = ("body", "joint", "constraint", "marker", "force", "morison", "gauge", "controller")
+OF_UNITS = (
+    "body",
+    "mode",
+    "attachment",
+    "joint",
+    "constraint",
+    "marker",
+    "force",
+    "morison",
+    "gauge",
+    "controller",
+)
 #: Keys that name entries of these tables, or channels of theirs.
 REFERENCES = ("name", "hydro", "body", "body_a", "body_b", "bodies", "joint", "joint_b", "marker")
 CHANNELS = ("inputs", "outputs")

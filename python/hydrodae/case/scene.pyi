@@ -116,6 +116,12 @@ class BodyInitial(TypedDict, total=False):
     velocity: _Numbers
     angular_velocity: _Numbers
 
+class ModeInitial(TypedDict, total=False):
+    """Table `initial` of `mode`."""
+
+    amplitude: float
+    rate: float
+
 class RevoluteInitial(TypedDict, total=False):
     """Table `initial` of `revolute`."""
 
@@ -3172,6 +3178,89 @@ class Scene(SceneBase):
         initial : dict, optional
             Start of the body, relative to its reference pose. Keys: displacement [m],
             rotation_deg [deg], velocity [m/s], angular_velocity [rad/s].
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def mode(
+        self,
+        name: str,
+        *,
+        body: str,
+        mass: float,
+        stiffness: float = ...,
+        damping: float = ...,
+        hydro: str = ...,
+        initial: ModeInitial = ...,
+    ) -> str:
+        """Add `[[mode]]`.
+
+        A shape in which a body deforms: a normal mode of the dry body, whose amplitude is a
+        further coordinate.
+
+        Parameters
+        ----------
+        name : text
+            Name of the mode in the results.
+        body : text
+            Body that deforms.
+        mass : number, kg
+            Modal mass of the dry body, in the scale of its shape. Allowed: > 0.
+        stiffness : number, N/m, default 0
+            Modal stiffness of the structure. That of the water comes from the database.
+            Allowed: >= 0.
+        damping : number, N s/m, default 0
+            Modal damping of the structure. Allowed: >= 0.
+        hydro : text, optional
+            Name of this mode in the hydrodynamic database, without the body; default: the name.
+        initial : dict, optional
+            Start of the mode. Keys: amplitude [m], rate [m/s].
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def attachment(
+        self,
+        name: str,
+        *,
+        body: str,
+        point: _Numbers,
+        displacement: _Rows,
+        rotation: _Rows = ...,
+    ) -> str:
+        """Add `[[attachment]]`.
+
+        A place on a body that moves with the modes of that body. Joints, forces and markers
+        name it as a body.
+
+        Parameters
+        ----------
+        name : text
+            Name of the attachment, and of the body that it is for others.
+        body : text
+            Body that deforms.
+        point : 3 numbers, m
+            Where it is in the reference pose, world axes.
+        displacement : list of points, m/m
+            Displacement of this point by each mode of the body: a vector of body axes for each
+            mode, in their order in the case, per unit of amplitude.
+        rotation : list of points, rad/m, optional
+            Rotation there by each mode: a vector of body axes for each mode, per unit of
+            amplitude; default: none.
 
         Returns
         -------

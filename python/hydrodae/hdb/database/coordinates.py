@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from hydrodae.errors import DatabaseError
 
 DOFS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
+MODE = 6  #: stands for any mode, where a rigid motion has its number 0..5
 GROUPS = {
     "all": DOFS,
     "planar": ("surge", "heave", "pitch"),
@@ -20,7 +21,7 @@ GROUPS = {
 
 
 def split_label(label: str) -> tuple[str, int]:
-    """Split `<body>.<dof>` into the body name and the number 0..5 of the degree of freedom.
+    """Split `<body>.<dof>` into the body name and the number 0..5 of the rigid motion, or `MODE`.
 
     Raises
     ------
@@ -28,9 +29,25 @@ def split_label(label: str) -> tuple[str, int]:
         The label is not of that form.
     """
     body, _, dof = label.rpartition(".")
-    if not body or dof not in DOFS:
-        raise DatabaseError(f"{label!r} is not <body>.<{'|'.join(DOFS)}>")
-    return body, DOFS.index(dof)
+    if not body or not dof:
+        raise DatabaseError(f"{label!r} is not <body>.<dof> ({', '.join(DOFS)}, or a mode)")
+    return body, DOFS.index(dof) if dof in DOFS else MODE
+
+
+def is_rotation(label: str) -> bool:
+    """Return whether a coordinate is an angle; modes are in metres."""
+    return 3 <= split_label(label)[1] < MODE
+
+
+def modes_of(body: str, labels: Iterable[str]) -> tuple[str, ...]:
+    """Return the names of the modes of a body, in the order of the labels."""
+    own = ((label, *split_label(label)) for label in labels)
+    return tuple(c.rpartition(".")[2] for c, name, dof in own if name == body and dof == MODE)
+
+
+def rigid(labels: Iterable[str]) -> list[str]:
+    """Return the labels that are no modes."""
+    return [label for label in labels if split_label(label)[1] != MODE]
 
 
 def bodies_of(labels: Iterable[str]) -> tuple[str, ...]:
@@ -184,7 +201,7 @@ def transport(
     place = {label: i for i, label in enumerate(labels)}
     for label, column in place.items():
         body, dof = split_label(label)
-        if dof < 3 or body not in shifts:
+        if not 3 <= dof < MODE or body not in shifts:
             continue
         coupling = -skew(shifts[body])[:, dof - 3]
         for row, value in enumerate(coupling):

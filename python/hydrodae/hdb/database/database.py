@@ -66,7 +66,11 @@ class HydroDatabase(Tables):
             added_mass_inf_std=self.added_mass_inf_std[square],
             froude_krylov=self.froude_krylov[:, :, i],
             diffraction=self.diffraction[:, :, i],
-            bodies={name: self.bodies[name] for name in keep},
+            bodies={
+                name: replace(body, mode_stiffness=_selected_modes(self, name, labels))
+                for name in keep
+                for body in [self.bodies[name]]
+            },
             kernel=None if self.kernel is None else self.kernel.selected(labels),
             memory=_selected_fits(self.memory, labels),
         )
@@ -144,7 +148,12 @@ class HydroDatabase(Tables):
             shifts[name] = old - new
             hs = bodies[name].hydrostatics
             moved = None if hs is None else hs.moved(old, new)
-            bodies[name] = Body(name, new, moved, self.bodies[name].mesh)
+            stiffness = bodies[name].mode_stiffness
+            if stiffness is not None:
+                turn = np.eye(len(stiffness))
+                turn[:3, 3:6] = -co.skew(shifts[name])
+                stiffness = turn.T @ stiffness @ turn
+            bodies[name] = Body(name, new, moved, self.bodies[name].mesh, stiffness)
         x = co.transport(self.coordinates, shifts)
         return replace(
             self,
@@ -206,6 +215,16 @@ class HydroDatabase(Tables):
     def summary(self) -> str:
         """Return what is in the database, in words for a newcomer."""
         return summary(self)
+
+
+def _selected_modes(database: Tables, name: str, labels: Sequence[str]) -> Array | None:
+    """Hydrostatics over the six and the modes among the labels."""
+    stiffness, kept = database.bodies[name].mode_stiffness, co.modes_of(name, labels)
+    if stiffness is None or not kept:
+        return None
+    modes = co.modes_of(name, database.coordinates)
+    rows = [*range(6), *(6 + modes.index(mode) for mode in kept)]
+    return np.asarray(stiffness[np.ix_(rows, rows)])
 
 
 def _selected_fits(

@@ -186,6 +186,8 @@ def _write_bodies(f: h5py.File, db: Tables) -> None:
                 group.attrs[name] = getattr(hs, name)
             stiffness = db.hydrostatic_stiffness(body.name)
             write_dataset(group, "hydrostatic_stiffness", BODY["hydrostatic_stiffness"], stiffness)
+        if body.mode_stiffness is not None:
+            write_dataset(group, "mode_stiffness", BODY["mode_stiffness"], body.mode_stiffness)
         if body.mesh is not None:  # to be looked at: seven digits will do
             write_dataset(group, "mesh", BODY["mesh"], body.mesh.astype(np.float32))
 
@@ -224,8 +226,14 @@ def _read_bodies(f: h5py.File, names: Iterable[str]) -> dict[str, Body]:
             if known or key == "reference_point"
         }
         point = numbers.pop("reference_point")
-        mesh = read_group(group, BODY).get("mesh")
-        bodies[name] = Body(name, point, Hydrostatics(**numbers) if known else None, mesh)
+        tables = read_group(group, BODY)
+        bodies[name] = Body(
+            name,
+            point,
+            Hydrostatics(**numbers) if known else None,
+            tables.get("mesh"),
+            tables.get("mode_stiffness"),
+        )
     return bodies
 
 

@@ -71,6 +71,7 @@ TABLES = {
 BODY = {
     "hydrostatic_stiffness": Entry((6, 6), unit=STIFFNESS),
     "mesh": Entry(("m", 4, 3), unit="m"),
+    "mode_stiffness": Entry(("k", "k"), unit=STIFFNESS),
 }
 KERNEL = {
     "inputs": Entry(("i",), TEXT),

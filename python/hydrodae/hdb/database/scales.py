@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.hdb.database.coordinates import split_label
+from hydrodae.hdb.database.coordinates import is_rotation
 from hydrodae.hdb.database.tables import Tables
 
 Array = NDArray[np.float64]
@@ -20,7 +20,7 @@ def scales(database: Tables) -> Array:
         Zero for coordinates that hardly radiate (yaw of an axisymmetric body, mesh noise).
     """
     peak = np.maximum(np.einsum("wii->wi", database.radiation_damping).max(axis=0), 0.0)
-    rotation = np.array([split_label(c)[1] >= 3 for c in database.coordinates])
+    rotation = np.array([is_rotation(c) for c in database.coordinates])
     for kind in (rotation, ~rotation):
         if kind.any():
             peak[kind & (peak < 1e-5 * peak[kind].max())] = 0.0

@@ -36,6 +36,10 @@ class Body:
         source does not say.
     hydrostatics : Hydrostatics or None
         None if unknown.
+    mode_stiffness : (6 + m, 6 + m) array or None
+        Hydrostatics over surge ... yaw and the m modes of the body [N/m, N, N m], as the source
+        has them: not symmetric, and without gravity in the modes. Rows are loads. None without
+        modes.
     mesh : (n, 4, 3) array or None
         Panels of the wetted surface [m], world axes, as they were computed; triangles repeat their
         last corner. None if the source does not hold them. Nothing is computed from them.
@@ -45,6 +49,7 @@ class Body:
     reference_point: Array | None = None
     hydrostatics: Hydrostatics | None = None
     mesh: Array | None = None
+    mode_stiffness: Array | None = None
 
     def __post_init__(self) -> None:
         if co.body_name(self.name) != self.name:
@@ -73,7 +78,8 @@ class Tables:
     Attributes
     ----------
     coordinates : (n,) tuple of str
-        Labels `<body>.<dof>`; any subset of the six of each body, in any order.
+        Labels `<body>.<dof>`; any subset of the six of each body, in any order, and its modes under
+        other names.
     omega : (nw,) array
         Frequencies [rad/s], ascending, finite, > 0.
     added_mass, radiation_damping : (nw, n, n) arrays
@@ -144,6 +150,14 @@ class Tables:
         names = co.bodies_of(self.coordinates)
         if set(names) != set(self.bodies):
             raise DatabaseError(f"bodies {list(self.bodies)} do not fit the coordinates {names}")
+        for name, body in self.bodies.items():
+            modes = co.modes_of(name, self.coordinates)
+            found = 6 if body.mode_stiffness is None else len(body.mode_stiffness)
+            if found != 6 + len(modes):
+                raise DatabaseError(
+                    f"coordinates {', '.join(modes)} of {name!r}: expected a mode_stiffness of "
+                    f"6 + {len(modes)} rows, or one of {', '.join(co.DOFS)}"
+                )
         shapes = {
             "omega": (nw,),
             "added_mass": (nw, n, n),

@@ -15,7 +15,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError, DatabaseError
-from hydrodae.hdb.database.coordinates import DOFS, split_label
+from hydrodae.hdb.database.coordinates import DOFS, rigid, split_label
 from hydrodae.hdb.database.database import HydroDatabase
 from hydrodae.hdb.database.kernels import excitation_kernel, memory_length
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
@@ -154,6 +154,8 @@ def write_capytaine(database: HydroDatabase, path: str | Path) -> None:
     only. Where the source gave the total excitation only, the file has `excitation_force` alone.
     """
     db, target = database, Path(path)
+    if len(rigid(db.coordinates)) < len(db.coordinates):
+        raise DatabaseError("this format has no modes of bodies: select the rigid coordinates")
     body_of = [split_label(c) for c in db.coordinates]
     dofs = [f"{body}__{DOFS[i].capitalize()}" for body, i in body_of]
     n, nh = len(dofs), db.heading.size

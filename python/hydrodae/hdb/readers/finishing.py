@@ -75,10 +75,8 @@ def _body(data: SourceData, name: str) -> Body:
                 f"(source_points, --origin {name}=x,y,z)",
             )
         )
-    mesh = data.meshes.get(name)
-    if found is None or point is None:
-        return Body(name, point, mesh=mesh)
-    return Body(name, point, found[0].moved(found[1], point), mesh)
+    statics = None if found is None or point is None else found[0].moved(found[1], point)
+    return Body(name, point, statics, data.meshes.get(name), data.mode_stiffness.get(name))
 
 
 def _drop_rows_with_nan(data: SourceData) -> None:

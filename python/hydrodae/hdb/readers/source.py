@@ -67,6 +67,8 @@ class SourceData:
         Panels (n, 4, 3) of the wetted surface of bodies [m], where the source holds them.
     extra : dict of SourceTable
         Kochin functions and drift forces.
+    mode_stiffness : dict
+        Hydrostatics of bodies with modes (6 + m, 6 + m) [N/m, N, N m]; see `Body`.
     """
 
     coordinates: tuple[str, ...]
@@ -90,6 +92,7 @@ class SourceData:
     assumed_points: dict[str, Finding] = field(default_factory=dict)
     meshes: dict[str, Array] = field(default_factory=dict)
     extra: dict[str, SourceTable] = field(default_factory=dict)
+    mode_stiffness: dict[str, Array] = field(default_factory=dict)
 
     def assume_point(self, body: str, point: Array, why: Finding) -> None:
         """Take a reference point that the source does not state."""

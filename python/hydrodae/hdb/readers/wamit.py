@@ -13,7 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.database.coordinates import DOFS, bodies_of, unique_names
+from hydrodae.hdb.database.coordinates import (
+    DOFS,
+    bodies_of,
+    is_rotation,
+    rigid,
+    unique_names,
+)
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers import wamit_tables as tables
@@ -127,7 +133,7 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
         for table in (a, b):
             table.transpose(0, 2, 1)[:, alone] = table[:, alone]
     omega = at[finite]
-    rotation = (modes.astype(int) - 1) % 6 >= 3
+    rotation = np.array([is_rotation(label) for label in coordinates])
     scale = rho * length ** (3.0 + rotation[:, None] + rotation)
     forces: dict[str, Complex | None] = {}
     heading = np.zeros(0)
@@ -185,6 +191,12 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
     data.added_mass_inf = None if limit is None else scale * limit
     data.reference_points.update(zip(names, control.points, strict=False))
     _attach_hydrostatics(data, stem, control, names, length, every)
+    if flexible := [label for label in coordinates if label not in rigid(coordinates)]:
+        name, file = names[0], beside(stem, ".hst")
+        stiffness = _stiffness(file, control, np.arange(1.0, 7.0 + len(flexible)), every)
+        turns = np.isin(np.arange(len(stiffness)), (3, 4, 5))
+        units = length ** (2.0 + turns[:, None] + turns)
+        data.mode_stiffness[name] = rho * gravity * units * stiffness
     return data
 
 
@@ -234,17 +246,23 @@ def _modes(
         raise DatabaseError(f"{path}: columns 2 and 3 must be modes 1, 2, ...")
     bodies = len(control.points) or int((modes.max() + 5) // 6)
     extra = modes[modes > 6 * bodies]
-    if extra.size:
+    flexible = bodies == 1 and beside(stem, ".hst") is not None
+    if extra.size and flexible:
+        text = f"modes {extra[0]:g} to {extra[-1]:g} are generalised: mode7 and so on"
+        findings.append(Finding("info", "coordinates", text))
+    elif extra.size:
         text = f"left out (not rigid): modes {', '.join(f'{m:g}' for m in extra)}"
         findings.append(Finding("warning", "coordinates", text))
-    modes = modes[modes <= 6 * bodies]
+    modes = modes if flexible else modes[modes <= 6 * bodies]
     raw = control.names or [stem.name if bodies == 1 else f"body{i + 1}" for i in range(bodies)]
     names = unique_names(raw)
     lost = [name for i, name in enumerate(names) if not np.any((modes - 1) // 6 == i)]
     if lost:
         text = f"{path.name} holds no modes of {', '.join(lost)}, which the control files name"
         findings.append(Finding("warning", "coordinates", text))
-    labels = [f"{names[(m - 1) // 6]}.{DOFS[(m - 1) % 6]}" for m in modes.astype(int)]
+    numbers = modes.astype(int)
+    labels = [f"{names[(m - 1) // 6]}.{DOFS[(m - 1) % 6]}" for m in numbers if m <= 6 * bodies]
+    labels += [f"{names[0]}.mode{m}" for m in numbers if m > 6 * bodies]
     return modes, names, tuple(labels)
 
 
@@ -294,7 +312,7 @@ def _attach_hydrostatics(
     if path is None and len(control.stiffness) != len(names):
         missing = names
     else:
-        stiffness = _stiffness(path, control, len(names), every)
+        stiffness = _stiffness(path, control, np.arange(1.0, 6.0 * len(names) + 1.0), every)
         data.files += [] if path is None else [path]
         for i, name in enumerate(names):
             point = data.reference_points[name]
@@ -319,7 +337,8 @@ def _attach_hydrostatics(
                 rho_g * block, point, statics.volume, center, data.rho, data.gravity
             )
             data.hydrostatics[name] = (hydrostatics, point)
-    table = None if path is None else _stiffness(path, control, len(names), every)
+    rows = np.arange(1.0, 6.0 * len(names) + 1.0)
+    table = None if path is None else _stiffness(path, control, rows, every)
     for i, name in enumerate(names):
         if name not in missing or name not in bodies_of(data.coordinates):
             continue
@@ -333,16 +352,14 @@ def _attach_hydrostatics(
         statics_of_file(data, name, mesh[0], text, shift=shift, area=area or None)
 
 
-def _stiffness(path: Path | None, control: Control, bodies: int, every: Array) -> Array:
-    """C/(rho g), (6 n, 6 n): from `.hst`, else the blocks of `.out`."""
-    size = 6 * bodies
+def _stiffness(path: Path | None, control: Control, modes: Array, every: Array) -> Array:
+    """C/(rho g) of some modes, (n, n): from `.hst`, else the blocks of `.out`."""
     if path is None:
-        result = np.zeros((size, size))
+        result = np.zeros((modes.size, modes.size))
         for i, block in enumerate(control.stiffness):
             result[6 * i : 6 * i + 6, 6 * i : 6 * i + 6] = block
         return result
     rows, lines = tables.read_rows(path, 3, 3, "I, J, C(I,J)")
-    modes = np.arange(1.0, size + 1.0)
     tables.check_indices(path, rows, lines, (0, 1), np.union1d(modes, every))
     rows, lines = _of_modes(rows, lines, (0, 1), modes)
     flat = np.column_stack([np.zeros(len(rows)), rows])

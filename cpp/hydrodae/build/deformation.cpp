@@ -1,0 +1,159 @@
+/// What modes and attachments of bodies that deform are in the equations.
+
+#include <algorithm>
+#include <cmath>
+
+#include "hydrodae/build/initial_pose.h"
+#include "hydrodae/build/parts.h"
+#include "hydrodae/element/linear_points.h"
+#include "hydrodae/hydro/coverage.h"
+#include "hydrodae/math/rotation.h"
+#include "hydrodae/model/deformation.h"
+
+namespace hydrodae::build {
+
+namespace {
+
+constexpr std::string_view mode_loads = "modes";
+
+/// Place and turn of an attachment against its body; both markers have the axes of the world in the
+/// reference pose.
+const joint::JointType attachment_type = {"attachment",
+                                          {},
+                                          {joint::slides(joint::X), joint::slides(joint::Y),
+                                           joint::slides(joint::Z), joint::turns(joint::X),
+                                           joint::turns(joint::Y), joint::turns(joint::Z)},
+                                          false};
+
+/// The motions of the modes of a body, in their order.
+std::vector<int> amplitudes(const model::Scene& scene, const std::string& body, system::System& s) {
+  std::vector<int> out;
+  for (const std::size_t mode : model::modes_of(scene, body))
+    out.push_back(body_motion(scene, model::part_of_mode(scene, mode).name, "surge", s));
+  return out;
+}
+
+/// (6 + n, 3 (3 + n)): surge ... yaw and amplitudes from the displacements of points: of three on
+/// the body, its centre c and c + x, c + y at a lever of 1 m, and one for each mode. Horizontal
+/// ones along axes turned by the mean yaw; to first order in the angles.
+MatrixX from_points(Index n, double yaw) {
+  MatrixX T = MatrixX::Zero(6 + n, 3 * (3 + n));
+  const double c = std::cos(yaw), d = std::sin(yaw);
+  T.block<2, 2>(0, 0) << c, d, -d, c;
+  T(2, 2) = 1.0;
+  T(3, 8) = 1.0, T(3, 2) = -1.0; // roll: c + y rises
+  T(4, 2) = 1.0, T(4, 5) = -1.0; // pitch: c + x sinks
+  T.block<1, 2>(5, 3) << -d, c;  // yaw: c + x goes along y
+  T.block<1, 2>(5, 0) << d, -c;
+  for (Index k = 0; k < n; ++k)
+    T(6 + k, 3 * (3 + k)) = 1.0;
+  return T;
+}
+
+/// Hydrostatics by and on the modes of a body (6 + n, 6 + n), zero of the six alone.
+MatrixX hydrostatics(const model::Scene& scene, const model::Body& body,
+                     const std::vector<std::size_t>& modes) {
+  const auto n = static_cast<Index>(modes.size());
+  MatrixX out = MatrixX::Zero(6 + n, 6 + n);
+  if (!body.hydro || !scene.database)
+    return out;
+  const hydro::DatabaseBody& entry = *hydro::find_body(*scene.database, *body.hydro);
+  std::vector<Index> place = {0, 1, 2, 3, 4, 5};
+  for (const std::size_t mode : modes)
+    place.push_back(6 +
+                    (std::find(entry.modes.begin(), entry.modes.end(), scene.modes[mode].label()) -
+                     entry.modes.begin()));
+  for (Index i = 0; i < 6 + n; ++i)
+    for (Index j = 0; j < 6 + n; ++j)
+      if (i >= 6 || j >= 6)
+        out(i, j) = entry.mode_stiffness(place[static_cast<std::size_t>(i)],
+                                         place[static_cast<std::size_t>(j)]);
+  return out;
+}
+
+double mean_yaw(const system::System& s, int body) {
+  for (const system::HydroBody& hb : s.hydro.bodies)
+    if (hb.body == body)
+      return hb.yaw;
+  return 0.0;
+}
+
+system::ElementList loads_of(const model::Scene& scene, const model::Body& body,
+                             const std::vector<std::size_t>& modes, const system::System& s) {
+  const auto n = static_cast<Index>(modes.size());
+  MatrixX K = hydrostatics(scene, body, modes), C = MatrixX::Zero(6 + n, 6 + n);
+  system::PortData port;
+  port.component = mode_loads;
+  const Vector3& centre = body.center_of_gravity;
+  for (const Vector3& arm : {Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0)})
+    port.points.push_back(make_marker(scene, body.name, centre + arm, Matrix3::Identity()));
+  for (Index k = 0; k < n; ++k) {
+    const std::size_t mode = modes[static_cast<std::size_t>(k)];
+    K(6 + k, 6 + k) += scene.modes[mode].stiffness;
+    C(6 + k, 6 + k) = scene.modes[mode].damping;
+    const model::Body& part = model::part_of_mode(scene, mode);
+    port.points.push_back(
+        make_marker(scene, part.name, part.center_of_gravity, Matrix3::Identity()));
+  }
+  const double yaw = mean_yaw(s, port.points.front().body);
+  const MatrixX T = from_points(n, yaw);
+  VectorX reference(T.cols());
+  const Matrix3 turn = rotation_about_axis<double>(2, yaw);
+  for (Index i = 0; i < 3 + n; ++i) {
+    const joint::Marker& point = port.points[static_cast<std::size_t>(i)];
+    reference.segment<3>(3 * i) = s.bodies[static_cast<std::size_t>(point.body)].reference +
+                                  (i < 3 ? Vector3(turn * point.point) : point.point);
+  }
+  system::ElementList list;
+  list.laws = std::make_shared<const element::LinearPoints>(
+      mode_loads, body.name, reference, T.transpose() * K * T, T.transpose() * C * T);
+  list.ports.push_back(std::move(port));
+  return list;
+}
+
+} // namespace
+
+void add_attachments(const model::Scene& scene, system::System& s) {
+  for (const model::Attachment& place : scene.attachments) {
+    system::JointData j;
+    j.name = place.name;
+    j.type = &attachment_type;
+    j.A = make_marker(scene, place.body, place.point, Matrix3::Identity());
+    j.B = make_marker(scene, place.name, place.point, Matrix3::Identity());
+    j.hidden = true;
+    const int first = add_joint(s, std::move(j)).first_motion;
+    const std::vector<int> modes = amplitudes(scene, place.body, s);
+    for (int c = 0; c < 6; ++c) {
+      system::CouplerData coupler;
+      coupler.name = place.name;
+      coupler.hidden = true;
+      coupler.terms = {{first + c, 1.0}};
+      const std::vector<Vector3>& shape = c < 3 ? place.displacement : place.rotation;
+      for (std::size_t k = 0; k < shape.size(); ++k)
+        if (const double by_mode = shape[k][c % 3]; by_mode != 0.0)
+          coupler.terms.push_back({modes[k], -by_mode});
+      s.couplers.push_back(std::move(coupler));
+    }
+  }
+}
+
+void set_mode_loads(const model::Scene& scene, system::System& s) {
+  auto next = s.elements.begin();
+  for (const model::Body& body : scene.bodies) {
+    const std::vector<std::size_t> modes = model::modes_of(scene, body.name);
+    if (modes.empty() || body.part)
+      continue;
+    system::ElementList list = loads_of(scene, body, modes, s);
+    next = std::find_if(next, s.elements.end(), [&](const system::ElementList& old) {
+      return old.laws->type == mode_loads;
+    });
+    if (next == s.elements.end()) {
+      s.elements.push_back(std::move(list));
+      next = s.elements.end();
+    } else {
+      *next++ = std::move(list);
+    }
+  }
+}
+
+} // namespace hydrodae::build

@@ -1,0 +1,58 @@
+#pragma once
+/// A load that is linear in the places and velocities of points:
+///
+///   f = -K (x - x0) - C x'        x: (3 n,) places of n points, f: the forces on them, earth axes
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hydrodae/element/elements.h"
+
+namespace hydrodae::element {
+
+/// One law of this kind.
+class LinearPoints final : public Elements {
+public:
+  /// @param reference  x0 (3 n,) [m]
+  /// @param stiffness  K (3 n, 3 n) [N/m]; need not be symmetric
+  /// @param damping    C (3 n, 3 n) [N s/m]
+  LinearPoints(std::string_view of_type, const std::string& name, VectorX reference,
+               MatrixX stiffness, MatrixX damping)
+      : x0_(std::move(reference)), K_(std::move(stiffness)), C_(std::move(damping)) {
+    type = of_type;
+    shape = {Port::points, static_cast<int>(x0_.size())};
+    names = {name};
+  }
+
+  void evaluate(double, const double* in, const double*, double* out) const override {
+    const Eigen::Map<const VectorX> x(in, size_of()), v(in + size_of(), size_of());
+    Eigen::Map<VectorX>(out, size_of()) = K_ * (x0_ - x) - C_ * v;
+  }
+  void evaluate(double, const Dual* in, const double*, Dual* out) const override {
+    for (Index i = 0; i < size_of(); ++i) {
+      out[i] = Dual(0.0);
+      for (Index j = 0; j < size_of(); ++j)
+        out[i] -= Dual(K_(i, j)) * (in[j] - Dual(x0_[j])) + Dual(C_(i, j)) * in[size_of() + j];
+    }
+  }
+  void jacobian(double, const double*, const double*, double* jacobian) const override {
+    Eigen::Map<MatrixX> J(jacobian, size_of(), 2 * size_of());
+    J << -K_, -C_;
+  }
+  /// Of the symmetric part, which alone has a potential.
+  void energy(const double* in, const double*, double* joules) const override {
+    const VectorX d = Eigen::Map<const VectorX>(in, size_of()) - x0_;
+    *joules = 0.5 * d.dot(K_ * d);
+  }
+  void observe(double, const double*, const double*, const double*, double*) const override {}
+  bool lost_at_rest(std::size_t) const override { return false; }
+
+private:
+  Index size_of() const { return x0_.size(); }
+  VectorX x0_;
+  MatrixX K_, C_;
+};
+
+} // namespace hydrodae::element

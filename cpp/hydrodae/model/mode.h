@@ -1,0 +1,90 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hydrodae/core/field.h"
+#include "hydrodae/core/types.h"
+
+namespace hydrodae::model {
+
+/// Start of a mode.
+struct ModeInitial {
+  static constexpr std::string_view doc = "Start of the mode.";
+  double amplitude = 0.0;
+  std::optional<double> rate;
+
+  template <class M = ModeInitial> static Fields<M> fields() {
+    return {
+        {"amplitude", &M::amplitude, "m", "Amplitude of the mode."},
+        {"rate", &M::rate, "m/s", "Its rate; if it is not given, it follows from the constraints."},
+    };
+  }
+};
+
+/// Table [[mode]]: a shape in which a body deforms, with an amplitude q as a further coordinate of
+/// the body. Shapes are normal modes of the dry body: neither another mode nor a rigid motion
+/// shares their kinetic energy (Newman, Applied Ocean Research 16 (1994) 47-59).
+///
+///   m q'' + c q' + k q = loads of the water and of what is attached, on the shape
+struct Mode {
+  static constexpr std::string_view doc = "A shape in which a body deforms: a normal mode of the "
+                                          "dry body, whose amplitude is a further "
+                                          "coordinate.";
+  std::string name;
+  std::string body;
+  double mass = 0.0;
+  double stiffness = 0.0;
+  double damping = 0.0;
+  std::optional<std::string> hydro;
+  ModeInitial initial;
+  const std::string& label() const { return hydro ? *hydro : name; } ///< in the database
+
+  template <class M = Mode> static Fields<M> fields() {
+    return {
+        {"name", &M::name, "-", "Name of the mode in the results.", true},
+        {"body", &M::body, "-", "Body that deforms.", true},
+        {"mass", &M::mass, "kg", "Modal mass of the dry body, in the scale of its shape.", true,
+         more_than(0)},
+        {"stiffness", &M::stiffness, "N/m",
+         "Modal stiffness of the structure. That of the water comes from the database.", false,
+         at_least(0)},
+        {"damping", &M::damping, "N s/m", "Modal damping of the structure.", false, at_least(0)},
+        {"hydro", &M::hydro, "-",
+         "Name of this mode in the hydrodynamic database, without the body; default: the name."},
+    };
+  }
+};
+
+/// Table [[attachment]]: a place on a body that moves with its modes. It has a name of its own, and
+/// joints, forces and markers use that name as they use the name of a body.
+///
+///   place r + R (s + sum_k phi_k q_k), turned by sum_k psi_k q_k against the body (small)
+struct Attachment {
+  static constexpr std::string_view doc = "A place on a body that moves with the modes of that "
+                                          "body. Joints, forces and markers name it "
+                                          "as a body.";
+  std::string name;
+  std::string body;
+  Vector3 point = Vector3::Zero();
+  std::vector<Vector3> displacement, rotation;
+
+  template <class A = Attachment> static Fields<A> fields() {
+    return {
+        {"name", &A::name, "-", "Name of the attachment, and of the body that it is for others.",
+         true},
+        {"body", &A::body, "-", "Body that deforms.", true},
+        {"point", &A::point, "m", "Where it is in the reference pose, world axes.", true},
+        {"displacement", &A::displacement, "m/m",
+         "Displacement of this point by each mode of the body: a vector of body axes for each "
+         "mode, in their order in the case, per unit of amplitude.",
+         true},
+        {"rotation", &A::rotation, "rad/m",
+         "Rotation there by each mode: a vector of body axes for each mode, per unit of "
+         "amplitude; default: none."},
+    };
+  }
+};
+
+} // namespace hydrodae::model

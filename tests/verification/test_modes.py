@@ -1,0 +1,180 @@
+"""Bodies that deform: closed forms, a hinge in two forms, and a flexible barge of WAMIT."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import hydrodae
+from hydrodae.linear import LinearModel
+
+TIGHT: dict[str, Any] = {"rtol": 1e-9, "accuracy": "none"}
+
+
+def beam(**body: Any) -> hydrodae.Scene:
+    """Return a body of 1000 kg with one mode of 100 kg and 4000 N/m, shape 2 at x = 3 m."""
+    scene = hydrodae.Scene("beam")
+    scene.environment(gravity=0.0)
+    scene.body("beam", mass=1000.0, center_of_gravity=[0.0, 0.0, 0.0], **body)
+    scene.mode("bend", body="beam", mass=100.0, stiffness=4000.0, initial={"amplitude": 0.1})
+    shape: dict[str, Any] = {"displacement": [[0.0, 0.0, 2.0]], "rotation": [[0.0, -1.0, 0.0]]}
+    scene.attachment("tip", body="beam", point=[3.0, 0.0, 0.0], **shape)
+    return scene
+
+
+def test_dry_mode_oscillates_by_itself() -> None:
+    scene = beam(motion="fixed")
+    scene.solver(end_time=5.0, **TIGHT)
+    run = hydrodae.run(scene)
+    expected = 0.1 * np.cos(np.sqrt(40.0) * run.time)
+    np.testing.assert_allclose(run["modes/beam.bend/amplitude"], expected, atol=1e-8)
+    np.testing.assert_allclose(run["bodies/tip/position"][:, 2], 2.0 * expected, atol=1e-7)
+
+
+@pytest.mark.parametrize("method", ["explicit_rk", "radau", "ida"])
+def test_load_on_an_attachment(method: Any) -> None:
+    """A point of 25 kg on a shape of 2 adds 100 kg to the modal mass."""
+    scene = beam(motion="fixed")
+    point = [3.0, 0.0, 0.0]
+    start: Any = {"displacement": [0.0, 0.0, 0.2]}
+    scene.body("load", motion="point", mass=25.0, center_of_gravity=point, initial=start)
+    scene.joint.spherical("clamp", body_a="tip", body_b="load", point=point)
+    scene.solver(end_time=5.0, method=method, **TIGHT)
+    run = hydrodae.run(scene)
+    expected = 0.1 * np.cos(np.sqrt(20.0) * run.time)
+    np.testing.assert_allclose(run["modes/beam.bend/amplitude"], expected, atol=1e-6)
+
+
+def test_large_motion_keeps_energy_and_momentum() -> None:
+    """A free body that turns, with a pendulum on its deformed end."""
+    scene = beam(inertia=[50.0, 2000.0, 2000.0], initial={"angular_velocity": [0.3, 0.2, 0.5]})
+    scene.body("bob", mass=50.0, inertia=[1.0, 1.0, 1.0], center_of_gravity=[3.0, 0.0, -1.0])
+    point = [3.0, 0.0, 0.0]
+    scene.joint.revolute("pin", body_a="tip", body_b="bob", point=point, axis=[0, 1, 0])
+    scene.solver(end_time=10.0, **TIGHT)
+    run = hydrodae.run(scene)
+    total = run["energy/total"].values
+    assert np.ptp(total) < 1e-6 * abs(total[0])
+    momentum = (
+        1000.0 * run["bodies/beam/velocity"].values + 50.0 * run["bodies/bob/velocity"].values
+    )
+    assert np.ptp(momentum, axis=0).max() < 1e-6 * np.abs(momentum).max()
+    assert np.abs(run["bodies/beam/rotation"].values).max() > 2.0
+
+
+def test_hinge_as_mode_and_as_joint() -> None:
+    """Two uniform halves on a hinge with a spring, and one body with the shape of the hinge.
+
+    Half: 500 kg, 4 m long. Shape: ends up by 1, hinge down by 1, so that momentum and its moment
+    vanish: z = |x| / 2 - 1, modal mass int z^2 dm = 1000 / 3 kg; the hinge opens by 1 rad/m.
+    """
+    stiffness, length = 2000.0, 4.0
+    inertia = 500.0 * length**2 / 12.0
+    one = hydrodae.Scene("mode")
+    one.environment(gravity=0.0)
+    own = [10.0, 1000.0 * 64.0 / 12.0, 1000.0 * 64.0 / 12.0]
+    one.body("barge", mass=1000.0, inertia=own, center_of_gravity=[0.0, 0.0, 0.0])
+    start: Any = {"amplitude": 0.001}
+    one.mode("hinge", body="barge", mass=1000.0 / 3.0, stiffness=stiffness, initial=start)
+    shape: dict[str, Any] = {"displacement": [[0.0, 0.0, -1.0]]}
+    one.attachment("middle", body="barge", point=[0.0, 0.0, 0.0], **shape)
+    one.solver(end_time=5.0, **TIGHT)
+    two = hydrodae.Scene("joint")
+    two.environment(gravity=0.0)
+    for name, x, turn in (("fore", 2.0, -1.0), ("aft", -2.0, 1.0)):
+        degrees = float(np.degrees(0.0005 * turn))
+        two.body(
+            name,
+            motion="planar",
+            mass=500.0,
+            inertia=[inertia] * 3,
+            center_of_gravity=[x, 0.0, 0.0],
+            initial={"rotation_deg": [0.0, degrees, 0.0]},
+        )
+    pin: dict[str, Any] = {
+        "body_a": "aft",
+        "body_b": "fore",
+        "point": [0.0, 0.0, 0.0],
+        "axis": [0, 1, 0],
+    }
+    two.joint.revolute("hinge", **pin)
+    two.force.pto_linear("spring", joint="hinge", damping=0.0, stiffness=stiffness)
+    two.marker("middle", body="aft", point=[0.0, 0.0, 0.0])
+    two.solver(end_time=5.0, **TIGHT)
+    mode, joint = hydrodae.run(one), hydrodae.run(two)
+    angle = joint["joints/hinge/angle"]
+    np.testing.assert_allclose(mode["modes/barge.hinge/amplitude"], -angle, atol=2e-6)
+
+
+def test_count_of_vectors_is_checked() -> None:
+    scene = hydrodae.Scene("beam")
+    scene.body("beam", mass=1.0, center_of_gravity=[0.0, 0.0, 0.0], motion="fixed")
+    scene.mode("bend", body="beam", mass=1.0)
+    scene.attachment("tip", body="beam", point=[0, 0, 0], displacement=[[0, 0, 1], [0, 0, 2]])
+    scene.solver(end_time=1.0)
+    with pytest.raises(hydrodae.CaseError) as caught:
+        hydrodae.run(scene)
+    assert caught.value.key == "attachment.tip.displacement"
+
+
+MODES = tuple(f"mode{k}" for k in range(7, 11))
+MASSES = (1.079216e6, 1.209976e6, 2.391821e6, 1.830601e6)  # kg, barge.frc
+STIFFNESSES = (6.077064e6, 4.382532e7, 2.741026e8, 4.664370e8)  # N/m
+#: Amplitudes per metre in barge.4, by period: heave, modes 7 and 8.
+BARGE = {
+    6.0: (0.4083, 0.1234, 0.0248),
+    7.95: (0.2658, 0.1874, 0.0139),
+    10.05: (0.6753, 0.1275, 0.0064),
+    12.0: (0.8348, 0.0755, 0.0142),
+    15.0: (0.9301, 0.0349, 0.0186),
+}
+
+
+def flexible_barge(source: Path, folder: Path, **hydro: Any) -> hydrodae.Scene:
+    """Return the barge of WEC-Sim's example of generalised modes."""
+    database, _ = hydrodae.hdb.import_database(source)
+    database.write(folder / "hydro.h5")
+    scene = hydrodae.Scene("barge", directory=folder)
+    scene.hydro(database="hydro.h5", **hydro)
+    inertia = [6.666667e7, 2.166667e9, 2.166667e9]
+    scene.body(
+        "barge", hydro="barge", motion="planar", mass=4e6, inertia=inertia,
+        center_of_gravity=[0.0, 0.0, 0.0],
+    )  # fmt: skip
+    for name, mass, stiffness in zip(MODES, MASSES, STIFFNESSES, strict=True):
+        scene.mode(name, body="barge", mass=mass, stiffness=stiffness)
+    scene.solver(end_time=200.0, rtol=1e-6, accuracy="none")
+    return scene
+
+
+def test_flexible_barge_of_wamit(reference: Path, tmp_path: Path) -> None:
+    """Amplitudes per metre of wave are those that WAMIT prints, within its digits and 1e-3."""
+    source = reference / "modes" / "gbm_barge" / "barge.1"
+    model = LinearModel(flexible_barge(source, tmp_path, radiation="none"))
+    omega = 2.0 * np.pi / np.array(list(BARGE))
+    found = model.response(omega)
+    columns = ("bodies/barge/heave", "modes/barge.mode7/amplitude", "modes/barge.mode8/amplitude")
+    for k, expected in enumerate(BARGE.values()):
+        row = [abs(found[c][k]) for c in columns]
+        np.testing.assert_allclose(row, expected, rtol=1e-3, atol=6e-5)
+
+
+def test_flexible_barge_in_time(reference: Path, tmp_path: Path) -> None:
+    """The same by a run in waves of 1 cm, with A and B of their period, within 1 % and 1 deg."""
+    source = reference / "modes" / "gbm_barge" / "barge.1"
+    period = 7.95
+    frequency = 2.0 * np.pi / period
+    scene = flexible_barge(source, tmp_path, radiation="constant", frequency=frequency)
+    scene.wave.regular("head", height=0.02, period=period)
+    scene.sea(ramp=50.0)
+    run = hydrodae.run(scene)
+    late = run.time > 200.0 - 5.0 * period
+    angle = frequency * run.time[late]
+    columns = np.column_stack([np.cos(angle), -np.sin(angle), np.ones_like(angle)])
+    channel = run["modes/barge.mode7/amplitude"][late]
+    real, imaginary, _ = np.linalg.lstsq(columns, channel, rcond=None)[0]
+    assert np.hypot(real, imaginary) / 0.01 == pytest.approx(0.1874, rel=0.01)
+    assert np.degrees(np.arctan2(imaginary, real)) % 360.0 == pytest.approx(181.5, abs=1.0)
