@@ -21,6 +21,7 @@ from tests.verification.point_absorbers import Table
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.memory import ExponentialMemory, MemoryFitWarning, fit_memory
+from hydrodae.hdb.memory.clock import Clock
 
 
 @pytest.fixture(scope="module")
@@ -262,14 +263,43 @@ def test_froude_scaling_keeps_the_dimensionless_fit(
     )
 
 
-def test_time_limit_ends_the_search(exact: Table) -> None:
+def test_time_limit_is_checked_and_told(exact: Table) -> None:
     with pytest.raises(DatabaseError, match="time_limit -1: expected seconds > 0"):
         fit_memory(exact, LABELS, time_limit=-1.0)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", MemoryFitWarning)
-        memory = fit_memory(exact, LABELS, time_limit=1e-3)
-    assert memory.report["time_limited"]
     assert not fit_memory(exact, LABELS).report["time_limited"]
+
+
+@pytest.mark.parametrize("method", ["auto", "hankel"])
+def test_no_moment_of_the_time_limit_gives_a_fit_that_is_not_passive(
+    exact: Table, monkeypatch: pytest.MonkeyPatch, method: str
+) -> None:
+    """The clock ends after so many looks at it: some stop the search before any fit is passive."""
+    size = np.sqrt(np.einsum("wii->wi", exact.radiation_damping).max(axis=0))
+    noise = np.random.default_rng(1).standard_normal(exact.radiation_damping.shape)
+    noise = 0.01 * (noise + noise.transpose(0, 2, 1)) * size * size[:, None]
+    noisy = replace(exact, radiation_damping=exact.radiation_damping + noise)
+    ends: list[str] = []
+    for most in (0, 3, 10, 30, 100, 300):
+        looks = 0
+
+        def over(self: Clock, share: float = 1.0, most: int = most) -> bool:
+            nonlocal looks
+            looks += 1
+            return looks > share * most
+
+        monkeypatch.setattr(Clock, "over", over)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", MemoryFitWarning)
+            try:
+                memory = fit_memory(noisy, LABELS, max_states=12, method=method)
+            except DatabaseError as error:
+                ends.append(str(error))
+                continue
+        assert memory.passivity().relative >= -1e-4
+        ends.append("")
+    assert "" in ends
+    assert any('run with radiation = "convolution"' in end for end in ends)
+    assert all("ended the search" in end for end in ends if end)
 
 
 def test_inconsistent_shapes_are_refused(fitted: ExponentialMemory) -> None:

@@ -113,8 +113,8 @@ def fit_memory(
         "modes", "hankel", or "auto": by the number of coupled coordinates, and a realisation too
         where no set of modes can be made passive.
     time_limit
-        Seconds. The search ends there, and the best passive fit so far is returned. A fit that
-        needs less does not depend on the machine.
+        Seconds. The search ends there, and the best passive fit so far is returned; an error where
+        there is none. A fit that needs less does not depend on the machine.
     searches
         Searches of poles that `hydrodae.hdb.memory.reach.reach` made of the same table.
 
@@ -137,7 +137,8 @@ def fit_memory(
     Raises
     ------
     DatabaseError
-        Unknown labels, non-finite data, no radiation, or fewer than 4 frequencies in the band.
+        Unknown labels, non-finite data, no radiation, fewer than 4 frequencies in the band, or no
+        passive fit within the time limit.
 
     Warns
     -----
@@ -187,6 +188,12 @@ def fit_memory(
     report = memory.report | _report(data, memory, groups, fits, goal, neglected)
     report |= _noise(fits, goal)
     report |= _symmetry(inputs, groups, made) | {"time_limited": limited}
+    if limited and not report["passive"]:
+        raise DatabaseError(
+            f"memory fit '{name}': the time limit of {time_limit:g} s ended the search before any "
+            "fit was passive, so there is none. Give it more time (--time-limit), or run with "
+            'radiation = "convolution", which needs the kernel (hdb kernel) and no fit'
+        )
     _warn(name, report)
     return replace(memory, report=report)
 
