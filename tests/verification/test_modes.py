@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import hydrodae
+from hydrodae.hdb.database.coordinates import DOFS
 from hydrodae.linear import LinearModel
 
 TIGHT: dict[str, Any] = {"rtol": 1e-9, "accuracy": "none"}
@@ -178,3 +179,83 @@ def test_flexible_barge_in_time(reference: Path, tmp_path: Path) -> None:
     real, imaginary, _ = np.linalg.lstsq(columns, channel, rcond=None)[0]
     assert np.hypot(real, imaginary) / 0.01 == pytest.approx(0.1874, rel=0.01)
     assert np.degrees(np.arctan2(imaginary, real)) % 360.0 == pytest.approx(181.5, abs=1.0)
+
+
+def write_wet_beam(path: Path) -> None:
+    """Write a database of one body with a mode: constant A, no B, a force on all coordinates."""
+    labels = tuple(f"beam.{dof}" for dof in (*DOFS, "bend"))
+    added = np.diag([50.0, 50.0, 100.0, 1e3, 1e3, 1e3, 40.0])
+    added[2, 6] = added[6, 2] = 20.0
+    omega = np.linspace(0.5, 8.0, 16)
+    stiffness = np.zeros((7, 7))
+    stiffness[6, 6], stiffness[2, 6], stiffness[6, 2] = 900.0, 150.0, 250.0
+    force = np.array([30.0, 0.0, 500.0, 0.0, 100.0, 0.0, 200.0 + 50.0j])
+    loads = np.stack([force, force * [0, 1, 1, 1, 1, 1, 0.5]])  # headings 0 and 90 degrees
+    every = np.broadcast_to(loads, (omega.size, 2, 7)).copy()
+    statics = hydrodae.hdb.Hydrostatics(1.0, np.zeros(3), 0.2, np.zeros(5))
+    body = hydrodae.hdb.Body("beam", np.zeros(3), statics, mode_stiffness=stiffness)
+    hydrodae.hdb.HydroDatabase(
+        labels,
+        omega,
+        np.broadcast_to(added, (omega.size, 7, 7)).copy(),
+        np.zeros((omega.size, 7, 7)),
+        added,
+        np.zeros((7, 7)),
+        np.radians([0.0, 90.0]),
+        np.zeros_like(every),
+        every,
+        {"beam": body},
+        1000.0,
+        10.0,
+        excitation_split=False,
+    ).write(path)
+
+
+def wet_beam(folder: Path, turned: float = 0.0) -> hydrodae.Scene:
+    """Return that body in heave with its mode, in a wave along its own axis."""
+    write_wet_beam(folder / "hydro.h5")
+    scene = hydrodae.Scene("wet beam", directory=folder)
+    scene.hydro(database="hydro.h5", radiation="none")
+    start: Any = {"rotation_deg": [0.0, 0.0, turned]}
+    centre = [0.0, 0.0, 0.0]
+    scene.body(
+        "beam", hydro="beam", motion="heave", mass=1000.0, center_of_gravity=centre, initial=start
+    )
+    scene.mode("bend", body="beam", mass=60.0, stiffness=4000.0, initial={"amplitude": 0.01})
+    return scene
+
+
+def test_wet_mode_is_that_of_two_equations(tmp_path: Path) -> None:
+    """Heave and mode: M x'' + K x = 0 with coupled added mass and an unsymmetric stiffness."""
+    scene = wet_beam(tmp_path)
+    scene.solver(end_time=5.0, **TIGHT)
+    run = hydrodae.run(scene)
+    mass = np.array([[1100.0, 20.0], [20.0, 100.0]])
+    stiffness = np.array([[2000.0, 150.0], [250.0, 4900.0]])  # rho g 0.2 m2; k + 900
+    values, shapes = np.linalg.eig(np.linalg.solve(mass, stiffness))
+    parts = np.linalg.solve(shapes, [0.0, 0.01])
+    exact = (shapes * parts) @ np.cos(np.sqrt(values)[:, None] * run.time)
+    np.testing.assert_allclose(run["bodies/beam/position"][:, 2], exact[0], atol=1e-8)
+    np.testing.assert_allclose(run["modes/beam.bend/amplitude"], exact[1], atol=1e-8)
+
+
+def test_waves_meet_a_turned_body_by_their_relative_heading(tmp_path: Path) -> None:
+    """Body and wave turned by a right angle: the same motion; the wave alone: another one."""
+    amplitudes = []
+    for turned, heading in ((0.0, 0.0), (90.0, 90.0), (0.0, 90.0)):
+        scene = wet_beam(tmp_path, turned)
+        scene.wave.regular("sea", height=0.02, period=3.0, heading_deg=heading)
+        scene.solver(end_time=10.0, **TIGHT)
+        amplitudes.append(hydrodae.run(scene)["modes/beam.bend/amplitude"].values)
+    np.testing.assert_allclose(amplitudes[1], amplitudes[0], atol=1e-10)
+    assert np.abs(amplitudes[2] - amplitudes[0]).max() > 1e-4
+
+
+def test_unknown_mode_is_refused_by_name(tmp_path: Path) -> None:
+    scene = wet_beam(tmp_path)
+    scene.mode("bent", body="beam", mass=60.0)
+    scene.solver(end_time=1.0)
+    with pytest.raises(hydrodae.CaseError) as caught:
+        hydrodae.run(scene)
+    assert caught.value.key == "mode.bent.name"
+    assert "did you mean 'bend'" in str(caught.value)

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.database.coordinates import split_label
+from hydrodae.hdb.database.coordinates import MODE, split_label
 from hydrodae.hdb.database.scales import scales
 
 Array = NDArray[np.float64]
@@ -84,7 +84,7 @@ def _motion(db: HydroDatabase) -> Array:
     active = scales(db) > 0.0
     for i, label in enumerate(db.coordinates):
         body, dof = split_label(label)
-        if not active[i] or added[i] <= 0.0 or not force[:, i].any():
+        if dof == MODE or not active[i] or added[i] <= 0.0 or not force[:, i].any():
             continue
         hs = db.bodies[body].hydrostatics
         known = hs is not None and dof < 3

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from hydrodae.hdb.checks.energy import energy_identity
 from hydrodae.hdb.checks.irregular import bands, ogilvie_residual, suspect_rows
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.database.coordinates import DOFS, split_label
+from hydrodae.hdb.database.coordinates import DOFS, rigid, split_label
 from hydrodae.hdb.database.findings import CheckReport
 from hydrodae.hdb.database.kernels import diagonal_kernels, envelope_length
 from hydrodae.hdb.database.scales import scaled_damping_eigenvalues, scales
@@ -47,9 +47,10 @@ def draw_report(database: HydroDatabase, report: CheckReport) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Six panels a body; every line over its own largest value, which the legend shows. Fits of
-        the memory are dashed; suspect frequencies are shaded.
+        Six panels a body, of its rigid motions; every line over its own largest value, which the
+        legend shows. Fits of the memory are dashed; suspect frequencies are shaded.
     """
+    database = database.select(rigid(database.coordinates))
     head = _head(database, report)
     count = len(database.bodies)
     heights = [0.145 * (head.count("\n") + 2), *([5.6] * count)]

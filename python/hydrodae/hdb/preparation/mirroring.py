@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.all_round import EQUAL, closed
-from hydrodae.hdb.database.coordinates import split_label
+from hydrodae.hdb.database.coordinates import rigid, split_label
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.readers.symmetric import ACROSS, ALONG, SAME, absent
 
@@ -79,6 +79,8 @@ def _signs(database: HydroDatabase, plane: str) -> Array:
 def _miss(database: HydroDatabase, plane: str) -> tuple[str, float]:
     """The largest miss of a mirror, in words and as a share."""
     normal, _, first = PLANES[plane]
+    if len(rigid(database.coordinates)) < len(database.coordinates):
+        return "how its modes mirror is not known", np.inf
     for name in database.bodies:
         if abs(database.reference_point(name)[normal]) > SAME:
             return f"{name} stands beside it", np.inf

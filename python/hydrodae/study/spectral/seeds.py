@@ -139,6 +139,8 @@ def _run_one(
 def _series(results: Results, name: str) -> tuple[np.ndarray, np.ndarray]:
     """Coordinate and rate over time."""
     head, _, last = name.rpartition("/")
+    if name.startswith("modes/"):
+        return results[name].values, results[f"{head}/rate"].values
     if not name.startswith("bodies/"):
         return results[name].values, results[f"{name}_rate"].values
     k = DOFS.index(last)
