@@ -15,7 +15,7 @@ from hydrodae.hdb.memory.fit import _near as as_near
 from hydrodae.hdb.memory.goal import Goal, Quality
 from hydrodae.hdb.memory.modes import Problem
 from hydrodae.hdb.memory.noise import noise as noise_of
-from hydrodae.hdb.preparation.fitting import goes_on
+from hydrodae.hdb.preparation.fit_stages import goes_on
 from hydrodae.hdb.preparation.left_out import cure, ways_out
 
 BAND = (0.2, 1.0)

@@ -269,15 +269,20 @@ def test_time_limit_is_checked_and_told(exact: Table) -> None:
     assert not fit_memory(exact, LABELS).report["time_limited"]
 
 
+def _noisy(table: Table) -> Table:
+    """Return the table with B that gives energy at some frequencies."""
+    size = np.sqrt(np.einsum("wii->wi", table.radiation_damping).max(axis=0))
+    noise = np.random.default_rng(1).standard_normal(table.radiation_damping.shape)
+    noise = 0.01 * (noise + noise.transpose(0, 2, 1)) * size * size[:, None]
+    return replace(table, radiation_damping=table.radiation_damping + noise)
+
+
 @pytest.mark.parametrize("method", ["auto", "hankel"])
 def test_no_moment_of_the_time_limit_gives_a_fit_that_is_not_passive(
     exact: Table, monkeypatch: pytest.MonkeyPatch, method: str
 ) -> None:
     """The clock ends after so many looks at it: some stop the search before any fit is passive."""
-    size = np.sqrt(np.einsum("wii->wi", exact.radiation_damping).max(axis=0))
-    noise = np.random.default_rng(1).standard_normal(exact.radiation_damping.shape)
-    noise = 0.01 * (noise + noise.transpose(0, 2, 1)) * size * size[:, None]
-    noisy = replace(exact, radiation_damping=exact.radiation_damping + noise)
+    noisy = _noisy(exact)
     ends: list[str] = []
     for most in (0, 3, 10, 30, 100, 300):
         looks = 0
@@ -300,6 +305,32 @@ def test_no_moment_of_the_time_limit_gives_a_fit_that_is_not_passive(
     assert "" in ends
     assert any('run with radiation = "convolution"' in end for end in ends)
     assert all("ended the search" in end for end in ends if end)
+
+
+@pytest.mark.parametrize("late", [0, 1])
+def test_one_group_without_time_is_enough_to_refuse_a_fit_that_is_not_passive(
+    exact: Table, monkeypatch: pytest.MonkeyPatch, late: int
+) -> None:
+    """Each uncoupled group has a part of the time; that of one is over, and the whole is not."""
+    apart = np.ones((3, 3))
+    apart[1, [0, 2]] = apart[[0, 2], 1] = 0.0
+    noisy = _noisy(exact)
+    noisy = replace(
+        noisy,
+        added_mass=noisy.added_mass * apart,
+        radiation_damping=noisy.radiation_damping * apart,
+    )
+    given: list[Clock] = []
+    part = Clock.part
+
+    def short(self: Clock, share: float) -> Clock:
+        given.append(Clock(0.0) if len(given) == late else part(self, share))
+        return given[-1]
+
+    monkeypatch.setattr(Clock, "part", short)
+    with pytest.raises(DatabaseError, match="time limit of 300 s ended the search before any"):
+        fit_memory(noisy, LABELS, max_states=12)
+    assert len(given) == 2
 
 
 def test_inconsistent_shapes_are_refused(fitted: ExponentialMemory) -> None:

@@ -11,7 +11,8 @@ from tests.verification.point_absorbers import Table
 
 from hydrodae.hdb.memory import MemoryFitWarning, fit_memory
 from hydrodae.hdb.memory import data as prepare
-from hydrodae.hdb.memory.direct import fit_direct
+from hydrodae.hdb.memory.candidate import Candidate, Search
+from hydrodae.hdb.memory.direct import direct
 from hydrodae.hdb.memory.goal import Goal, measure
 
 
@@ -63,14 +64,21 @@ def test_a_vector_fit_alone_finds_them_where_the_table_ends_early() -> None:
     matrices = prepare.scaled(data.square, data.scale, pick)
     problem = prepare.make_problem(data.omega, matrices, goal.band, goal.factor)
     said: list[str] = []
-    modes, quality, passive = fit_direct(problem, goal, None, said.append)
-    assert passive
-    assert goal.met(quality)
-    assert modes.n_states <= 24
+
+    def best(cap: int | None) -> Candidate:
+        search = Search(problem, goal, cap, True, said.append)
+        for modes in direct(search):
+            search.judge(modes, "direct")
+        return search.best()
+
+    found = best(None)
+    assert found.passive
+    assert goal.met(found.quality)
+    assert found.modes.n_states <= 24
     assert any("vector fit with 12 poles" in text for text in said)
-    few, _, passive = fit_direct(problem, goal, 6, said.append)
-    assert passive
-    assert few.n_states <= 6
+    few = best(6)
+    assert few.passive
+    assert few.modes.n_states <= 6
 
 
 def test_errors_that_alternate_rank_before_smaller_ones_that_stay(exact: Table) -> None:

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from hydrodae.hdb.memory import data as prepare
+from hydrodae.hdb.memory.candidate import Candidate
 from hydrodae.hdb.memory.data import ImpedanceData
 from hydrodae.hdb.memory.goal import Goal
 from hydrodae.hdb.memory.model import ExponentialMemory
 from hydrodae.hdb.memory.modes import IntArray
-from hydrodae.hdb.memory.search import GroupFit
 from hydrodae.hdb.memory.vector_fitting import Array, ComplexArray
 
 
@@ -20,7 +20,7 @@ def assemble(
     name: str,
     inputs: tuple[str, ...],
     groups: Sequence[IntArray],
-    fits: Sequence[GroupFit],
+    fits: Sequence[Candidate],
     goal: Goal,
 ) -> ExponentialMemory:
     """Put the groups together in SI; rows of the input matrix are scaled to unit norm.

@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 
 from hydrodae.hdb.memory import data as prepare
 from hydrodae.hdb.memory import symmetry
+from hydrodae.hdb.memory.candidate import Candidate, made_passive
 from hydrodae.hdb.memory.clock import SEARCH, Clock
 from hydrodae.hdb.memory.data import ImpedanceData
 from hydrodae.hdb.memory.goal import Goal, Progress, Quality, measure, quality
 from hydrodae.hdb.memory.modes import AnyArray, IntArray, Modes, Problem, refine
-from hydrodae.hdb.memory.search import MANY, GroupFit, fit_problem, made_passive
+from hydrodae.hdb.memory.search import MANY, VECTOR, fit_problem
 from hydrodae.hdb.memory.symmetry import Block
 from hydrodae.hdb.memory.vector_fitting import Array, ComplexArray
 
@@ -36,7 +37,7 @@ WEAK = 3.0
 class FittedGroup:
     """Fit of a group, the scale of its coordinates, and the symmetry that was used."""
 
-    fit: GroupFit
+    fit: Candidate
     scale: Array
     blocks: tuple[Block, ...]
     left_out: float
@@ -188,14 +189,14 @@ def _prefixed(say: Progress, prefix: str) -> Progress:
 
 def _fit_blocks(
     array: _Array, goal: Goal, cap: int | None, clock: Clock, say: Progress
-) -> GroupFit:
+) -> Candidate:
     """Fit each block; once more with tighter goals where all meet theirs and the whole does not.
 
     A fit that meets the tighter goal, too, stays.
     """
     many = array.whole.size > MANY
     share = SHARED if goal.uniform is not None and len(array.blocks) > 1 else 1.0
-    fits: list[GroupFit] = []
+    fits: list[Candidate] = []
     for _ in range(TIGHTENED):
         goals = array.goals(_tightened(goal, share))
         before, fits = fits, []
@@ -229,23 +230,30 @@ def _fit_blocks(
             break
         share *= 0.9 / miss
     largest = max(fits, key=lambda fit: fit.modes.n_states)
-    return GroupFit(modes, array.whole, found, largest.method)
+    return Candidate(
+        modes,
+        array.whole,
+        found,
+        all(fit.passive for fit in fits),
+        largest.method,
+        any(fit.limited for fit in fits),
+    )
 
 
-def _refitted(modes: Modes, array: _Array, goal: Goal) -> GroupFit | None:
+def _refitted(modes: Modes, array: _Array, goal: Goal) -> Candidate | None:
     """Refit the modes of all blocks together; None where that does not reach the goal.
 
     The weights of the whole, entry by entry, are others than those of the blocks.
     """
     free, _ = refine(modes, array.whole, 20, 1e-3)
-    passive, reached = made_passive(free, array.whole, goal)
-    found = quality(passive, array.measured, goal.band)
-    return GroupFit(passive, array.whole, found) if reached and goal.met(found) else None
+    made = made_passive(free, array.whole, goal, VECTOR, alone=True, thorough=True)
+    made = replace(made, quality=quality(made.modes, array.measured, goal.band))
+    return made if made.passive and goal.met(made.quality) else None
 
 
 def _fit_block(
     problem: Problem, goal: Goal, cap: int | None, many: bool, say: Progress
-) -> GroupFit:
+) -> Candidate:
     """Fit one block; none where it is too small to matter."""
     n = problem.size
     mass = prepare.first_added_mass(
@@ -255,7 +263,7 @@ def _fit_block(
     found = quality(none, problem, goal.band)
     if goal.met(found):
         say("too small to matter")
-        return GroupFit(none, problem, found)
+        return Candidate(none, problem, found, True, VECTOR)
     return fit_problem(problem, goal, cap, many, say)
 
 

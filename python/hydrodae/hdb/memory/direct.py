@@ -3,19 +3,21 @@
 Poles common to all entries are relocated from a few starts until a full-rank fit is well below the
 goal; its residues are split into rank-one modes, refitted together, and made passive by the
 penalty. Modes that hardly matter go in batches. This takes some more states than a search mode by
-mode (`hydrodae.hdb.memory.search`), and seconds where that takes minutes. Tables that end where B
+mode (`hydrodae.hdb.memory.pruning`), and seconds where that takes minutes. Tables that end where B
 is still large, of which no K(t) can be made (`hydrodae.hdb.memory.hankel`), are fitted as well as
 others.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
+from hydrodae.hdb.memory.candidate import Search
 from hydrodae.hdb.memory.clock import SEARCH
-from hydrodae.hdb.memory.goal import Goal, Progress, Quality, quality
+from hydrodae.hdb.memory.goal import Goal, Progress, quality
 from hydrodae.hdb.memory.modes import Modes, Problem, error, from_residues, importance, refine
-from hydrodae.hdb.memory.penalty import press
 from hydrodae.hdb.memory.vector_fitting import (
     ComplexArray,
     order,
@@ -30,50 +32,17 @@ RICH = 0.5
 """Share of the goal below which no more poles are tried."""
 BATCH = 0.1
 """Share of the modes that leaves at a time."""
-FAILED, GAIN = 2, 0.95
-"""The search ends after so many fits in a row that are not passive, or whose errors with more modes
-are not below this share of the least before."""
 MOST_POLES = 40
 """Most common poles, conjugates counted."""
 
 
-def fit_direct(
-    problem: Problem, goal: Goal, cap: int | None, say: Progress
-) -> tuple[Modes, Quality, bool]:
-    """Fit and make passive; the goal is met unless the tables forbid it.
-
-    Parameters
-    ----------
-    problem, goal
-        What is fitted, and how well.
-    cap
-        Most states, or None.
-    say
-        Called with one line per stage.
-
-    Returns
-    -------
-    modes, quality, passive
-        The fewest states that meet the goal, passive; or the best found.
-    """
-    rungs = _rungs(problem, goal, cap, say)
-    best: tuple[Modes, Quality, bool] | None = None
-    failed = 0
-    for modes in rungs[::-1]:
-        modes, reached = press(
-            modes, problem, lambda trial: goal.met(quality(trial, problem, goal.band))
-        )
-        found = quality(modes, problem, goal.band)
-        say(f"{modes.n_states} states, passive: {reached}, {goal.miss(found):.2f} of the target")
-        miss = goal.miss(found)
-        nearer = best is None or not best[2] or miss < GAIN * goal.miss(best[1])
-        failed = 0 if reached and nearer else failed + 1
-        if best is None or (reached, -miss) > (best[2], -goal.miss(best[1])):
-            best = modes, found, reached
-        if failed >= FAILED or (reached and goal.met(found)) or problem.clock.over():
+def direct(search: Search) -> Iterator[Modes]:
+    """Yield models with ever more modes, from the fewest near the goal, until one meets it."""
+    first = len(search.judged)
+    for modes in _rungs(search.problem, search.goal, search.cap, search.say)[::-1]:
+        yield modes
+        if search.met or search.stalled(first):
             break
-    assert best is not None
-    return best
 
 
 def _rungs(problem: Problem, goal: Goal, cap: int | None, say: Progress) -> list[Modes]:

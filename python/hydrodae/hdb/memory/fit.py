@@ -15,13 +15,13 @@ from hydrodae.hdb.memory import data as prepare
 from hydrodae.hdb.memory.assemble import assemble
 from hydrodae.hdb.memory.band import default_band
 from hydrodae.hdb.memory.blocks import SYMMETRIC, FittedGroup, fit_group, sizes
-from hydrodae.hdb.memory.clock import SEARCH, TIME_LIMIT, Clock
+from hydrodae.hdb.memory.candidate import Candidate
+from hydrodae.hdb.memory.clock import TIME_LIMIT, Clock
 from hydrodae.hdb.memory.data import ImpedanceData, RadiationData
 from hydrodae.hdb.memory.goal import METHODS, Goal, Progress, Quality, measure, stored_quality
 from hydrodae.hdb.memory.model import ExponentialMemory
 from hydrodae.hdb.memory.modes import IntArray, Searches
 from hydrodae.hdb.memory.noise import noise
-from hydrodae.hdb.memory.search import GroupFit
 from hydrodae.hdb.memory.vector_fitting import Array
 from hydrodae.hdb.memory.verdict import PASSIVE_LIMIT, missed
 from hydrodae.support.blas import one_blas_thread
@@ -68,11 +68,11 @@ def fit_memory(
 ) -> ExponentialMemory:
     """Fit the radiation memory and its added_mass_inf to the stored Z = B + i omega A.
 
-    Weighted vector fitting with many starts gives poles; its residues are split into rank-one
-    modes, refitted all together, pruned to the fewest that meet the targets, and made passive with
-    all parameters free. Poles, residues and A_inf are all unknown, H(0) = 0 is a row of the fit,
-    nothing is interpolated. Groups of more than 12 coupled coordinates start from a Hankel
-    realisation of K(t) instead (`hydrodae.hdb.memory.hankel`).
+    What is minimised, subject to what and until when, is stated in `hydrodae.hdb.memory.search`:
+    the fewest states of rank-one modes that are passive and near the tables. Candidates come from
+    vector fits of many starts, of groups of more than 12 coupled coordinates from a Hankel
+    realisation of K(t). Poles, residues and A_inf are all unknown, H(0) = 0 is a row of the fit,
+    nothing is interpolated.
 
     Coordinates that do not radiate into each other are fitted apart: surge and heave of a body of
     revolution, motion in and across a plane of symmetry. So are the blocks of an array whose tables
@@ -172,7 +172,7 @@ def fit_memory(
     groups, neglected = prepare.uncoupled_groups(data, COUPLING)
     say = progress or (lambda message: None)
     made = _fit_groups(data, groups, inputs, goal, clock, say)
-    limited = clock.over(SEARCH)
+    limited = any(part.fit.limited for part in made)
     scale = data.scale.copy()
     for group, part in zip(groups, made, strict=True):
         scale[group] = part.scale
@@ -191,7 +191,7 @@ def fit_memory(
     if limited and not report["passive"]:
         raise DatabaseError(
             f"memory fit '{name}': the time limit of {time_limit:g} s ended the search before any "
-            "fit was passive, so there is none. Give it more time (--time-limit), or run with "
+            "fit was passive: there is no fit. Give it more time (--time-limit), or run with "
             'radiation = "convolution", which needs the kernel (hdb kernel) and no fit'
         )
     _warn(name, report)
@@ -282,7 +282,7 @@ def _report(
     data: ImpedanceData,
     memory: ExponentialMemory,
     groups: Sequence[IntArray],
-    fits: Sequence[GroupFit],
+    fits: Sequence[Candidate],
     goal: Goal,
     neglected: float,
 ) -> dict[str, Any]:
@@ -343,7 +343,7 @@ def _report(
     }
 
 
-def _noise(fits: Sequence[GroupFit], goal: Goal) -> dict[str, Any]:
+def _noise(fits: Sequence[Candidate], goal: Goal) -> dict[str, Any]:
     """Return the noise of the tables in the band, and whether only noise parts fit and target.
 
     No fit of few states is nearer to the tables than their noise is to a smooth function.

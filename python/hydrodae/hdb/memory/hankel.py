@@ -16,14 +16,15 @@ structure with randomness, SIAM Review 53 (2011) 217 (range finder).
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
+from hydrodae.hdb.memory.candidate import Search
 from hydrodae.hdb.memory.clock import SEARCH
-from hydrodae.hdb.memory.goal import Goal, Progress, Quality, quality
+from hydrodae.hdb.memory.goal import quality
 from hydrodae.hdb.memory.modes import PARAMETERS, Modes, Problem, impedance, refine
-from hydrodae.hdb.memory.penalty import press
 from hydrodae.hdb.memory.vector_fitting import Array, limited
 from hydrodae.hdb.relations import irf
 
@@ -44,21 +45,16 @@ class _Kernel:
     size: int
 
 
-def fit_hankel(
-    problem: Problem, goal: Goal, cap: int | None, say: Progress, patient: bool = True
-) -> tuple[Modes, Quality, bool] | None:
-    """Find the fewest states that meet the goal, passive; or the best found.
+def realisations(search: Search, patient: bool = True) -> Iterator[Modes]:
+    """Yield realisations with ever more states, refitted, until one meets the goal.
 
-    Returns
-    -------
-    modes, quality, passive
-        None if not `patient` and no realisation starts near the goal: so it is with tables that
-        end where B is still large, of which no K(t) can be made.
+    None if not `patient` and no realisation starts near the goal: so it is with tables that end
+    where B is still large, of which no K(t) can be made.
     """
+    problem, goal = search.problem, search.goal
     kernel = _decompose(problem)
-    most = _most_states(kernel, problem, cap)
+    most = _most_states(kernel, problem, search.cap)
     orders = _orders(2 * problem.size, most)
-    best: tuple[Modes, Quality, bool] | None = None
     near = patient
     for count in orders:
         last = count == orders[-1] or problem.clock.over(SEARCH)
@@ -70,29 +66,19 @@ def fit_hankel(
         start = goal.miss(quality(modes, problem, goal.band))
         near = near or start <= HOPEFUL
         if last and not near:
-            return None
+            return
         if not last and (start > HOPEFUL or modes.n_states > most):
             continue
         modes, _ = refine(modes, problem, 12, 0.02)
         free = goal.miss(quality(modes, problem, goal.band))
-        say(
+        search.say(
             f"Hankel, {modes.n_states} states: {start:.2f}, refitted {free:.2f} of the target error"
         )
         if free > 0.9 and not last:
             continue
-        modes, reached = press(
-            modes, problem, lambda trial: goal.met(quality(trial, problem, goal.band))
-        )
-        found = quality(modes, problem, goal.band)
-        say(f"{modes.n_states} states, passive: {reached}, {goal.miss(found):.2f} of the target")
-        if reached and goal.met(found):
-            return modes, found, True
-        if best is None or (reached, -goal.miss(found)) > (best[2], -goal.miss(best[1])):
-            best = modes, found, reached
-        if last:
-            break
-    assert best is not None
-    return best
+        yield modes
+        if last or search.met:
+            return
 
 
 def _most_states(kernel: _Kernel, problem: Problem, cap: int | None) -> int:

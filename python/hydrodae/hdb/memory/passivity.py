@@ -40,7 +40,7 @@ CONSTRAIN_BELOW = 2e-3
 REFINED, BETWEEN = 8, 13
 """Lowest minima that are looked at between the points of the grid, and points for each."""
 ACCEPTED = -5e-5
-"""When the iterations end above the floor, modes down to this share count as passive."""
+"""Modes whose smallest eigenvalue of Re H is above this share of the largest are passive."""
 
 
 class Passivity(NamedTuple):
@@ -95,6 +95,12 @@ def local_minima(modes: Modes, highest: float, below: float = CONSTRAIN_BELOW) -
         float(inner_values.min(initial=values[:, 0].min())),
         largest,
     )
+
+
+def is_passive(modes: Modes, problem: Problem) -> bool:
+    """Return whether Re H has no eigenvalue below `ACCEPTED` of the largest, at any frequency."""
+    found = local_minima(modes, float(problem.samples.omega.max()))
+    return found.lowest >= ACCEPTED * found.largest
 
 
 def eigenvalues(matrices: Array) -> Array:
@@ -169,7 +175,7 @@ def enforce(
     floor: float = -1e-5,
     tolerance: float = 1e-5,
     iterations: int = 80,
-) -> tuple[Modes, bool]:
+) -> Modes:
     """Make the modes passive and refit them, all parameters free.
 
     Parameters
@@ -189,8 +195,8 @@ def enforce(
 
     Returns
     -------
-    modes, reached
-        The passive modes of least weighted error, or the last ones when the floor was not reached.
+    Modes
+        The passive ones of least weighted error, or the last ones when the floor was not reached.
     """
     now, minima = error(modes, problem), local_minima(modes, float(problem.samples.omega.max()))
     level, damping, ratio, stalled = minima.lowest / minima.largest, 1e-3, lowering, 0
@@ -214,7 +220,7 @@ def enforce(
             best = (value, modes)
         if stalled > 2:
             break
-    return (best[1], True) if best else (modes, minima.lowest / minima.largest >= ACCEPTED)
+    return best[1] if best else modes
 
 
 def _constrained_step(

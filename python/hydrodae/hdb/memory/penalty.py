@@ -58,7 +58,7 @@ def press(
     problem: Problem,
     good: Callable[[Modes], bool],
     iterations: int = 30,
-) -> tuple[Modes, bool]:
+) -> Modes:
     """Refit the modes with a growing penalty until they are passive and good.
 
     Parameters
@@ -74,8 +74,8 @@ def press(
 
     Returns
     -------
-    modes, reached
-        The passive modes of least weighted error, or the last ones when the floor was not reached.
+    Modes
+        The passive ones of least weighted error, or the last ones when the floor was not reached.
     """
     highest, top = float(problem.samples.omega.max()), 0.0
     best: tuple[float, Modes] | None = None
@@ -107,7 +107,7 @@ def press(
                 margin = min(margin + max(1e-5, 0.5 * (FLOOR - lowest)), MARGINS[1])
         if damping > 1e6:
             break
-    return (best[1], True) if best else (modes, False)
+    return best[1] if best else modes
 
 
 def _grid(modes: Modes, highest: float) -> Array:

@@ -6,12 +6,13 @@ import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from hydrodae.errors import CaseError
-from hydrodae.hdb.bem import run, shapes
+from hydrodae.hdb.bem import run
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import CheckReport
-from hydrodae.hdb.hull.hydrostatics import Hydrostatics
-from hydrodae.hdb.preparation.importing import import_database
+from hydrodae.hdb.preparation import pipeline
+from hydrodae.hdb.preparation.compute_stages import Computation, hydrostatics_of
+
+__all__ = ["compute", "hydrostatics_of"]
 
 
 def compute(
@@ -22,6 +23,8 @@ def compute(
     progress: Callable[[int, int, float, float], None] | None = None,
 ) -> tuple[HydroDatabase, CheckReport]:
     """Compute a database with Capytaine; the command `hydrodae hdb compute`.
+
+    The stages are listed in `hydrodae.hdb.preparation.pipeline`.
 
     Parameters
     ----------
@@ -50,22 +53,6 @@ def compute(
     DatabaseError
         Capytaine is missing, bad meshes, too many panels, or NaN at infinite frequency.
     """
-    statics = hydrostatics_of(bodies)
-    netcdf = run.compute(bodies, settings, Path(work), progress=progress)
-    database, report = import_database(netcdf, hydrostatics=statics)
-    return database.with_meshes({body.name: body.panels for body in bodies}), report
-
-
-def hydrostatics_of(bodies: Sequence[run.WettedBody]) -> dict[str, Hydrostatics]:
-    """Return the hydrostatics of the panels of each body, by its name.
-
-    Raises
-    ------
-    CaseError
-        Two bodies have the same name.
-    DatabaseError
-        The panels do not enclose a volume in the water.
-    """
-    if len({body.name for body in bodies}) < len(bodies):
-        raise CaseError("two bodies have the same name")
-    return {body.name: shapes.hydrostatics(body.panels, body.point) for body in bodies}
+    state = Computation("", bodies=bodies, settings=settings, work=Path(work), told=progress)
+    pipeline.run(pipeline.COMPUTE, state)
+    return state.database, CheckReport(state.findings)

@@ -2,35 +2,14 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import replace
-from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from hydrodae.errors import CaseError, DatabaseError
-from hydrodae.hdb.checks.band import felt_band
-from hydrodae.hdb.checks.irregular import suspect_rows
+from hydrodae.errors import CaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.coordinates import body_name, expand
 from hydrodae.hdb.database.radiation_kernel import LIMIT
-from hydrodae.hdb.preparation.left_out import (
-    OUTSIDE,
-    at,
-    cure,
-    rows_left_out,
-    without_lone_rows,
-)
-
-if TYPE_CHECKING:
-    from hydrodae.hdb.memory import ExponentialMemory
-
-#: Weighted error of H in the band of a fit without a target of its own.
-USUAL = 0.01
-#: Then A_inf of the fit must be that of the tables, to this share of the largest A, and |H| nowhere
-#: beyond so many times its largest in the tables.
-INERTIA, RINGS = 0.05, 1.5
+from hydrodae.hdb.preparation import pipeline
+from hydrodae.hdb.preparation.fit_stages import Fit
 
 
 def fit(
@@ -49,6 +28,8 @@ def fit(
     progress: Callable[[str], None] | None = None,
 ) -> HydroDatabase:
     """Fit the radiation memory of some coordinates; the command `hydrodae hdb fit`.
+
+    The stages are listed in `hydrodae.hdb.preparation.pipeline`.
 
     Where no smooth function follows the whole table, frequencies outside the band that break
     causality or energy (irregular frequencies) are left out, and then those above the band. The
@@ -81,12 +62,13 @@ def fit(
     method : str, optional
         "modes", "hankel" or "auto" (default: by the number of coordinates).
     time_limit : float, optional
-        Seconds [s]; default: 300. The search ends there, and the best passive fit so far is taken.
+        Seconds [s]; default: 300. The search ends there, and the best passive fit so far is taken;
+        an error where no fit is passive by then, whatever is accepted.
     accept : sequence of str
         What the fit may miss: "target" (implied by `states`, which asks for the best of so many)
         and "passive".
     progress : callable, optional
-        Called with a line of text now and then.
+        Called with the name of each stage, and with a line of text now and then.
 
     Returns
     -------
@@ -106,124 +88,27 @@ def fit(
     hydrodae.hdb.memory.MemoryFitWarning
         What the fit missed and was accepted; coordinates that do not radiate.
     """
-    from hydrodae.hdb.memory import MemoryFitWarning, fit_memory
-    from hydrodae.hdb.memory.fit import table_band
-    from hydrodae.hdb.memory.verdict import CHECKS, missed
-
     if not is_fit_name(name):
         raise CaseError(f"fit {name!r}: a name has letters, digits, _ and - only")
     if target is not None and not target > 0.0:
         raise CaseError(f"target {target:g}: expected a number > 0")
-    if unknown := [check for check in accept if check not in CHECKS]:
-        raise CaseError(f"accept {unknown[0]!r}: expected one of {', '.join(CHECKS)}")
     if time_limit is not None and not time_limit > 0.0:
         raise CaseError(f"time limit {time_limit:g}: expected seconds > 0")
-    if band is None and uniform is not None:
-        band = table_band(database)[0], felt_band(database)[1]
-    allowed = {*accept, *(() if states is None else ("target",))}
-    given = {
-        "band": band,
-        "max_states": states,
-        "target": target,
-        "uniform": uniform,
-        "method": method,
-        "time_limit": time_limit,
-        "progress": progress,
-    }
-    options: dict[str, Any] = {key: value for key, value in given.items() if value is not None}
-    moving = _labels(inputs, database)
-    options["outputs"] = None if loads is None else _labels(loads, database)
-
-    judged = band or table_band(database)
-    tables, garbled = without_lone_rows(database, moving, judged)
-    whole = np.zeros(tables.omega.size, bool)
-    bad, text = whole, ""
-    if states is None and method in (None, "auto"):
-        options["searches"] = {}  # of the look, for the fit
-        keys = "target", "uniform", "searches"
-        looked = {key: options[key] for key in keys if key in options}
-        bad, text = rows_left_out(tables, moving, judged, looked)
-    left_out = "; ".join(part for part in (garbled, text) if part)
-    if text and progress is not None:
-        progress(text)
-    if bad.any():
-        options |= {"band": judged, "target_outside": OUTSIDE}
-    with warnings.catch_warnings(record=True) as warned:
-        warnings.simplefilter("always", MemoryFitWarning)
-        made = fit_memory(at(tables, ~bad), inputs=moving, name=name, **options)
-    if left_out:
-        made = replace(made, report={**made.report, "left_out": left_out})
-    refused = {key: why for key, why in missed(made.report).items() if key not in allowed}
-    if list(refused) == ["target"] and target is None and _near_enough(made, tables):
-        made, refused, warned = _as_near(made), {}, []
-    if bad.any() and not goes_on(made, tables):
-        refused["limit"] = "goes to another added mass, or rings, beyond the frequencies it matches"
-    if refused:
-        raise DatabaseError(f"fit '{name}' {_refusal(refused, cure(database, moving, judged))}")
-    for warning in warned:
-        warnings.warn(warning.message, stacklevel=2)
-    return replace(database, memory={**database.memory, name: made})
-
-
-def _near_enough(fit: ExponentialMemory, tables: HydroDatabase) -> bool:
-    """Return whether a fit without a target of its own is kept, its error stated."""
-    report = fit.report
-    if "uniform" in report:
-        return False
-    if report["as_near_as_noise"]:
-        return True
-    beyond = report["weighted_error_outside"] <= OUTSIDE or goes_on(fit, tables)
-    return bool(report["weighted_error_band"] <= USUAL and beyond)
-
-
-def _as_near(fit: ExponentialMemory) -> ExponentialMemory:
-    """Return a fit that misses the usual target, with a note of it."""
-    report = fit.report
-    cause = "no fit reaches"
-    if report["time_limited"]:
-        cause = "the time limit ended the search before it reached"
-    text = (
-        f"the tables carry noise of {report['noise']:.1e} of H in the band (weighted); {cause} "
-        f"the usual target {report['target']:g}, this one {report['weighted_error_band']:.1e}"
+    state = Fit(
+        database,
+        _labels(inputs, database),
+        None if loads is None else _labels(loads, database),
+        name=name,
+        band=band,
+        states=states,
+        target=target,
+        uniform=uniform,
+        method=method,
+        time_limit=time_limit,
+        accept=accept,
+        progress=progress,
     )
-    return replace(fit, report={**report, "noisy": text, "target_met": True})
-
-
-def goes_on(fit: ExponentialMemory, database: HydroDatabase) -> bool:
-    """Return whether a fit goes to the right limit beyond the frequencies that it matches.
-
-    It is passive, its A_inf is that of the tables within their uncertainty, and |H| nowhere is far
-    beyond what it is at the frequencies of the tables that break no law.
-    """
-    i = database.index(fit.inputs)
-    moving = [fit.outputs.index(label) for label in fit.inputs]
-    own = np.diag(fit.added_mass_inf[moving])
-    off = own - np.diag(database.added_mass_inf)[i]
-    size = np.abs(database.added_mass[:, i, i]).max(axis=0)
-    allowed = np.maximum(INERTIA * size, 3.0 * np.diag(database.added_mass_inf_std)[i])
-    good = ~suspect_rows(database)
-    w = database.omega[good, None]
-    stored = database.radiation_damping[:, i, i][good] + 1j * w * (
-        database.added_mass[:, i, i][good] - own
-    )
-    fine = np.geomspace(database.omega[0], 2.0 * database.omega[-1], 2000)
-    made = np.einsum("wii->wi", fit.transfer(fine)[:, moving])
-    largest = np.abs(stored).max(axis=0)
-    return bool(np.all(np.abs(off) <= allowed) and np.all(np.abs(made) <= RINGS * largest))
-
-
-def _refusal(refused: dict[str, str], cured_by: str) -> str:
-    """Return why a fit is refused, and what can be done."""
-    ways = []
-    if "target" in refused:
-        ways.append("a larger --target, a narrower --band or --states N, the best of so many")
-    if "passive" in refused:
-        ways.append("more states or another --method")
-    names = " ".join(f"--accept {check}" for check in refused)
-    first = f" {cured_by}." if cured_by else ""
-    return (
-        f"{', and '.join(refused.values())}.{first} Not kept: give {', or '.join(ways)}, or {names}"
-    )
+    return pipeline.run(pipeline.FIT, state, progress).database
 
 
 def kernel(

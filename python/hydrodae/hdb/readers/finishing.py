@@ -9,7 +9,7 @@ from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.coordinates import bodies_of
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.tables import Body
-from hydrodae.hdb.readers.source import Array, Complex, SourceData, sha256
+from hydrodae.hdb.readers.source import TABLES, Array, Complex, SourceData, sha256
 from hydrodae.hdb.relations import infinity
 from hydrodae.support.version import version
 
@@ -80,9 +80,8 @@ def _body(data: SourceData, name: str) -> Body:
 
 
 def _drop_rows_with_nan(data: SourceData) -> None:
-    tables = ("added_mass", "radiation_damping", "froude_krylov", "diffraction", "excitation")
     bad = np.zeros(data.omega.size, dtype=bool)
-    for name in tables:
+    for name in TABLES:
         value = getattr(data, name)
         if value is not None:
             bad |= ~np.isfinite(value).reshape(data.omega.size, -1).all(axis=1)
@@ -104,11 +103,7 @@ def _drop_rows_with_nan(data: SourceData) -> None:
             omega=float(data.omega[bad][0]),
         )
     )
-    data.omega = data.omega[~bad]
-    for name in tables:
-        value = getattr(data, name)
-        if value is not None:
-            setattr(data, name, value[~bad])
+    data.keep_frequencies(~bad)
 
 
 def asymmetry_finding(data: SourceData) -> None:

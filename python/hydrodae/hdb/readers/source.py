@@ -18,6 +18,8 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 
+#: What a source holds of each frequency.
+TABLES = ("added_mass", "radiation_damping", "froude_krylov", "diffraction", "excitation")
 #: What no coefficient in SI units reaches; larger ones stand for overflows.
 LARGEST = 1e30
 #: Taken where no file gives them: sea water, and the mean over the globe.
@@ -93,6 +95,14 @@ class SourceData:
     meshes: dict[str, Array] = field(default_factory=dict)
     extra: dict[str, SourceTable] = field(default_factory=dict)
     mode_stiffness: dict[str, Array] = field(default_factory=dict)
+
+    def keep_frequencies(self, kept: NDArray[np.bool_]) -> None:
+        """Leave out the frequencies (nw,) that are not kept, in all tables."""
+        self.omega = self.omega[kept]
+        for name in TABLES:
+            value = getattr(self, name)
+            if value is not None:
+                setattr(self, name, value[kept])
 
     def assume_point(self, body: str, point: Array, why: Finding) -> None:
         """Take a reference point that the source does not state."""

@@ -1,0 +1,59 @@
+"""Stages of a boundary-element run; between `solve` and `add_panels` lie those of an import."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from hydrodae.errors import CaseError
+from hydrodae.hdb.bem import run, shapes
+from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+from hydrodae.hdb.preparation.import_stages import Import
+
+
+@dataclass
+class Computation(Import):
+    """An import whose source is computed first.
+
+    Attributes
+    ----------
+    bodies, settings, work, told
+        As in `hydrodae.hdb.compute`, `told` its `progress`.
+    """
+
+    bodies: Sequence[run.WettedBody] = ()
+    settings: run.Settings = field(kw_only=True)
+    work: Path = field(kw_only=True)
+    told: Callable[[int, int, float, float], None] | None = None
+
+
+def weigh_panels(state: Computation) -> None:
+    """Take the panels (n, 4, 3) [m] of the bodies; add their `hydrostatics`."""
+    state.hydrostatics = hydrostatics_of(state.bodies)
+
+
+def solve(state: Computation) -> None:
+    """Take bodies and settings; add the `source`, the file of Capytaine's results in `work`."""
+    state.source = run.compute(state.bodies, state.settings, state.work, progress=state.told)
+
+
+def add_panels(state: Computation) -> None:
+    """Take the `database`; add the panels (n, 4, 3) [m] of each body."""
+    panels = {body.name: body.panels for body in state.bodies}
+    state.database = state.database.with_meshes(panels)
+
+
+def hydrostatics_of(bodies: Sequence[run.WettedBody]) -> dict[str, Hydrostatics]:
+    """Return the hydrostatics of the panels of each body, by its name.
+
+    Raises
+    ------
+    CaseError
+        Two bodies have the same name.
+    DatabaseError
+        The panels do not enclose a volume in the water.
+    """
+    if len({body.name for body in bodies}) < len(bodies):
+        raise CaseError("two bodies have the same name")
+    return {body.name: shapes.hydrostatics(body.panels, body.point) for body in bodies}
