@@ -62,7 +62,7 @@ model::Scene row_of_floats(int n, std::array<int, 2> coupled, double there, doub
     body.mass = 1000.0;
     body.inertia = Vector3::Constant(1000.0);
     body.center_of_gravity = Vector3(10.0 * i, 0.0, -0.5);
-    database->bodies.push_back({body.name, body.center_of_gravity, h});
+    database->bodies.push_back({body.name, body.center_of_gravity, h, {}, {}});
     database->coordinates.push_back(body.name + ".heave");
     scene.bodies.push_back(body);
   }
