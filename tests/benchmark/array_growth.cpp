@@ -55,7 +55,7 @@ std::shared_ptr<const hydro::Database> made_up(int n) {
     h.stiffness(2, 2) = db->rho * db->gravity * pi * radius * radius;
     h.stiffness(4, 4) = 0.2 * radius * mass * db->gravity;
     const std::string name = "b" + std::to_string(i);
-    db->bodies.push_back({name, Vector3(spacing * i, 0.0, -0.4 * radius), h});
+    db->bodies.push_back({name, Vector3(spacing * i, 0.0, -0.4 * radius), h, {}, {}});
     for (const char* dof : {"surge", "heave", "pitch"})
       db->coordinates.push_back(name + "." + dof);
   }
