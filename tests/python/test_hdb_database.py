@@ -331,7 +331,7 @@ def test_wrong_files_are_refused(tmp_path):
         ({"added_mass_inf": np.full((12, 12), np.nan)}, "not finite"),
         ({"rho": -1.0}, "must be > 0"),
         ({"coordinates": ("a.surge",) * 12}, "different labels"),
-        ({"coordinates": ("a.warp", *make().coordinates[1:])}, "'a.warp' is not"),
+        ({"coordinates": ("a.warp", *make().coordinates[1:])}, "coordinates warp of 'a'"),
     ],
 )
 def test_inconsistent_tables_are_refused(changes, message):
