@@ -79,8 +79,8 @@ TEST_CASE("a wrong key is told with its place and the nearest name") {
        "water_depth"},
       {"[solver]", "[solvr]",
        "case.toml:34:2: unknown key 'solvr' in the case; did you mean 'solver'? (valid: title, "
-       "environment, hydro, pose_table, sea, wave, body, joint, constraint, marker, force, "
-       "morison, gauge, "
+       "environment, hydro, pose_table, sea, wave, body, mode, attachment, joint, constraint, "
+       "marker, force, morison, gauge, "
        "controller, solver, "
        "output)"},
       {"angle_deg", "angle_dg",
