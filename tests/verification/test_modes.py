@@ -281,3 +281,13 @@ def test_attachments_are_drawn_where_they_are(tmp_path: Path) -> None:
     run = hydrodae.run(planar_beam(), output=tmp_path / "beam.h5")
     tip = next(body for body in hydrodae.view(run).stage.bodies if body.name == "tip")
     np.testing.assert_allclose(tip.position[-1], run["bodies/tip/position"].values[-1])
+
+
+def test_a_mode_is_no_body_for_joints() -> None:
+    scene = beam(motion="fixed")
+    scene.body("bob", motion="point", mass=1.0, center_of_gravity=[0.0, 0.0, 0.0])
+    scene.joint.spherical("pin", body_a="beam.bend", body_b="bob", point=[0.0, 0.0, 0.0])
+    scene.solver(end_time=1.0)
+    with pytest.raises(hydrodae.CaseError) as caught:
+        hydrodae.run(scene)
+    assert caught.value.key == "joint.pin.body_a"
