@@ -80,8 +80,6 @@ def test_hinge_as_mode_and_as_joint() -> None:
     one.body("barge", mass=1000.0, inertia=own, center_of_gravity=[0.0, 0.0, 0.0])
     start: Any = {"amplitude": 0.001}
     one.mode("hinge", body="barge", mass=1000.0 / 3.0, stiffness=stiffness, initial=start)
-    shape: dict[str, Any] = {"displacement": [[0.0, 0.0, -1.0]]}
-    one.attachment("middle", body="barge", point=[0.0, 0.0, 0.0], **shape)
     one.solver(end_time=5.0, **TIGHT)
     two = hydrodae.Scene("joint")
     two.environment(gravity=0.0)
@@ -103,7 +101,6 @@ def test_hinge_as_mode_and_as_joint() -> None:
     }
     two.joint.revolute("hinge", **pin)
     two.force.pto_linear("spring", joint="hinge", damping=0.0, stiffness=stiffness)
-    two.marker("middle", body="aft", point=[0.0, 0.0, 0.0])
     two.solver(end_time=5.0, **TIGHT)
     mode, joint = hydrodae.run(one), hydrodae.run(two)
     angle = joint["joints/hinge/angle"]
@@ -259,3 +256,38 @@ def test_unknown_mode_is_refused_by_name(tmp_path: Path) -> None:
         hydrodae.run(scene)
     assert caught.value.key == "mode.bent.name"
     assert "did you mean 'bend'" in str(caught.value)
+
+
+def planar_beam() -> hydrodae.Scene:
+    """Return a planar beam with a bob on its deformed end."""
+    scene = beam(motion="planar", inertia=[50.0, 2000.0, 2000.0])
+    point = [3.0, 0.0, 0.0]
+    start: Any = {"displacement": [0.0, 0.0, 0.2]}
+    scene.body("bob", motion="point", mass=50.0, center_of_gravity=point, initial=start)
+    scene.joint.spherical("pin", body_a="tip", body_b="bob", point=point)
+    scene.solver(end_time=2.0, **TIGHT)
+    return scene
+
+
+def test_attachment_on_a_planar_body_is_planar() -> None:
+    """Three conditions hold it; with the two of the joint in the plane there are five, and sway."""
+    text = str(hydrodae.check(planar_beam()))
+    assert "left by 6 constraint rows" in text
+    assert "redundant" not in text
+    assert "body 'tip'" not in text  # no advice on what is not in the case
+
+
+def test_attachments_are_drawn_where_they_are(tmp_path: Path) -> None:
+    run = hydrodae.run(planar_beam(), output=tmp_path / "beam.h5")
+    tip = next(body for body in hydrodae.view(run).stage.bodies if body.name == "tip")
+    np.testing.assert_allclose(tip.position[-1], run["bodies/tip/position"].values[-1])
+
+
+def test_a_mode_is_no_body_for_joints() -> None:
+    scene = beam(motion="fixed")
+    scene.body("bob", motion="point", mass=1.0, center_of_gravity=[0.0, 0.0, 0.0])
+    scene.joint.spherical("pin", body_a="beam.bend", body_b="bob", point=[0.0, 0.0, 0.0])
+    scene.solver(end_time=1.0)
+    with pytest.raises(hydrodae.CaseError) as caught:
+        hydrodae.run(scene)
+    assert caught.value.key == "joint.pin.body_a"

@@ -22,7 +22,8 @@ namespace {
 system::BodyData make_body(const model::Body& body, const Pose& pose) {
   system::BodyData b;
   b.name = body.name;
-  b.is_mode = body.is_mode();
+  if (body.part)
+    b.kind = body.part->mode ? system::BodyData::Kind::mode : system::BodyData::Kind::attachment;
   b.mass = body.mass.value;
   b.inertia = model::inertia_tensor(body);
   b.reference = body.center_of_gravity;

@@ -8,7 +8,9 @@
 #include "hydrodae/element/linear_points.h"
 #include "hydrodae/hydro/coverage.h"
 #include "hydrodae/math/rotation.h"
+#include "hydrodae/model/check.h"
 #include "hydrodae/model/deformation.h"
+#include "hydrodae/model/motion.h"
 
 namespace hydrodae::build {
 
@@ -123,9 +125,13 @@ void add_attachments(const model::Scene& scene, system::System& s) {
     j.hidden = true;
     const int first = add_joint(s, std::move(j)).first_motion;
     const std::vector<int> modes = amplitudes(scene, place.body, s);
+    const std::array<bool, 6> free =
+        model::free_coordinates(*model::find_named(scene.bodies, place.name));
     for (int c = 0; c < 6; ++c) {
+      if (!free[static_cast<std::size_t>(c)])
+        continue;
       system::CouplerData coupler;
-      coupler.name = place.name;
+      coupler.name = place.name + "." + std::string(model::coordinate_names[c]);
       coupler.hidden = true;
       coupler.terms = {{first + c, 1.0}};
       const std::vector<Vector3>& shape = c < 3 ? place.displacement : place.rotation;

@@ -253,7 +253,8 @@ void set_hydrostatics(const model::Scene& scene, system::System& s) {
   for (const system::HydroBody& hb : s.hydro.bodies) {
     const auto body = static_cast<std::size_t>(hb.body);
     const hydro::DatabaseBody* entry = hydro::find_body(*scene.database, *scene.bodies[body].hydro);
-    if (!entry->hydrostatics || scene.bodies[body].hydrostatics_by_mesh() || s.bodies[body].is_mode)
+    if (!entry->hydrostatics || scene.bodies[body].hydrostatics_by_mesh() ||
+        s.bodies[body].is_mode())
       continue;
     system::PortData port;
     port.component = water::Hydrostatics::type;

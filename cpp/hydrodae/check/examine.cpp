@@ -92,10 +92,16 @@ std::string lesser_motion(const System& s, const system::BodyData& b,
 
 void advise_bodies(std::ostream& out, const System& s, const std::vector<bool>& never) {
   for (const system::BodyData& b : s.bodies) {
+    if (b.kind == system::BodyData::Kind::attachment)
+      continue; // moves as its body does
     const std::vector<std::string> rest =
         never.empty() ? std::vector<std::string>{} : resting_coordinates(s, b, never);
     if (rest.empty())
       continue;
+    if (b.is_mode()) {
+      out << "  never excited: mode '" << b.name << "'\n";
+      continue;
+    }
     out << "  never excited: " << joined(rest) << " of body '" << b.name
         << "' (held by joints or zero by symmetry, which a disturbance may break)\n";
     const std::string less = lesser_motion(s, b, never);

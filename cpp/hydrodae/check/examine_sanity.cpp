@@ -56,6 +56,8 @@ std::vector<Finding> look_at_rest(const model::Scene& scene, const System& given
   }
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     const system::BodyData& b = s.bodies[i];
+    if (b.kind != system::BodyData::Kind::whole)
+      continue;
     const Vector3 moved = b.position - b.reference;
     const Matrix3 R = rotation_matrix<double>(b.orientation);
     const double turn = std::acos(std::clamp(0.5 * (R.trace() - 1.0), -1.0, 1.0));

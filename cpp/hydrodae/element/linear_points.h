@@ -3,10 +3,9 @@
 ///
 ///   f = -K (x - x0) - C x'        x: (3 n,) places of n points, f: the forces on them, earth axes
 
-#include <memory>
+#include <algorithm>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "hydrodae/element/elements.h"
 
@@ -27,16 +26,9 @@ public:
   }
 
   void evaluate(double, const double* in, const double*, double* out) const override {
-    const Eigen::Map<const VectorX> x(in, size_of()), v(in + size_of(), size_of());
-    Eigen::Map<VectorX>(out, size_of()) = K_ * (x0_ - x) - C_ * v;
+    load(in, out);
   }
-  void evaluate(double, const Dual* in, const double*, Dual* out) const override {
-    for (Index i = 0; i < size_of(); ++i) {
-      out[i] = Dual(0.0);
-      for (Index j = 0; j < size_of(); ++j)
-        out[i] -= Dual(K_(i, j)) * (in[j] - Dual(x0_[j])) + Dual(C_(i, j)) * in[size_of() + j];
-    }
-  }
+  void evaluate(double, const Dual* in, const double*, Dual* out) const override { load(in, out); }
   void jacobian(double, const double*, const double*, double* jacobian) const override {
     Eigen::Map<MatrixX> J(jacobian, size_of(), 2 * size_of());
     J << -K_, -C_;
@@ -50,6 +42,14 @@ public:
   bool lost_at_rest(std::size_t) const override { return false; }
 
 private:
+  template <class S> void load(const S* in, S* out) const {
+    std::fill_n(out, size_of(), S(0.0));
+    for (Index j = 0; j < size_of(); ++j) {
+      const S d = in[j] - S(x0_[j]), v = in[size_of() + j];
+      for (Index i = 0; i < size_of(); ++i)
+        out[i] -= S(K_(i, j)) * d + S(C_(i, j)) * v;
+    }
+  }
   Index size_of() const { return x0_.size(); }
   VectorX x0_;
   MatrixX K_, C_;

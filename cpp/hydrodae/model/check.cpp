@@ -58,6 +58,14 @@ void refuse(const Entry& entry, const std::string& key, const std::string& messa
                    entry.kind + " " + in_quotes(entry.name) + ": " + message);
 }
 
+std::vector<std::string> names_of_bodies(const Scene& scene) {
+  std::vector<std::string> out;
+  for (const Body& body : scene.bodies)
+    if (!body.is_mode())
+      out.push_back(body.name);
+  return out;
+}
+
 void check_reference(const Entry& entry, const std::string& key, const std::string& name,
                      const std::vector<std::string>& names, const std::string& sort) {
   if (std::find(names.begin(), names.end(), name) == names.end())
@@ -67,7 +75,8 @@ void check_reference(const Entry& entry, const std::string& key, const std::stri
 void check_ends(const Scene& scene, const Entry& entry, const std::string& body_a,
                 const std::string& body_b) {
   std::vector<std::string> names = {std::string(ground)};
-  append_names(scene.bodies, names);
+  const std::vector<std::string> bodies = names_of_bodies(scene);
+  names.insert(names.end(), bodies.begin(), bodies.end());
   check_reference(entry, "body_a", body_a, names, "body");
   check_reference(entry, "body_b", body_b, names, "body");
   if (body_a == body_b)
@@ -117,7 +126,7 @@ void check(const Scene& scene) {
   check_forces(scene);
   check_morison(scene);
   for (const PoseTable& table : scene.pose_tables)
-    check_reference({"pose_table", table.name}, "body", table.body, names_of(scene.bodies), "body");
+    check_reference({"pose_table", table.name}, "body", table.body, names_of_bodies(scene), "body");
   check_claims(scene);
   for (const Controller& controller : scene.controllers)
     check_controller(scene, controller);

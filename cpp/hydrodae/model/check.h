@@ -31,6 +31,9 @@ struct Entry {
 /// Throws ModelError with the key path "<kind>.<name>.<key>" (without a key: "<kind>.<name>").
 [[noreturn]] void refuse(const Entry& entry, const std::string& key, const std::string& message);
 
+/// What joints, forces and markers can name: bodies and attachments.
+std::vector<std::string> names_of_bodies(const Scene& scene);
+
 /// Refuses `key = name` of the entry unless the name is among `names`, which are of this sort.
 void check_reference(const Entry& entry, const std::string& key, const std::string& name,
                      const std::vector<std::string>& names, const std::string& sort);

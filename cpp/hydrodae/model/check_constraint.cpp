@@ -24,7 +24,7 @@ namespace {
 
 void check_body_coordinate(const Scene& scene, const Entry& entry, const std::string& name,
                            const std::optional<std::string>& coordinate) {
-  check_reference(entry, "body", name, names_of(scene.bodies), "body");
+  check_reference(entry, "body", name, names_of_bodies(scene), "body");
   const std::array<bool, 6> free = free_coordinates(*find_named(scene.bodies, name));
   std::vector<std::string> names;
   for (std::size_t i = 0; i < 6; ++i)

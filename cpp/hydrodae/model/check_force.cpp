@@ -21,7 +21,7 @@ bool check_motion(const Scene& scene, const Entry& entry, const std::string& nam
 
 /// The ends of a line may both be on the ground, or on one body.
 void check_line(const Scene& scene, const Entry& entry, const line::Line& line) {
-  std::vector<std::string> names = names_of(scene.bodies);
+  std::vector<std::string> names = names_of_bodies(scene);
   names.emplace_back(ground);
   check_reference(entry, "body_a", line.body_a, names, "body");
   check_reference(entry, "body_b", line.body_b, names, "body");
@@ -32,7 +32,7 @@ void check_line(const Scene& scene, const Entry& entry, const line::Line& line) 
 template <class Force> void check_force(const Scene& scene, const Force& force) {
   const Entry entry{"force", force.name};
   if constexpr (requires { force.body; })
-    check_reference(entry, "body", force.body, names_of(scene.bodies), "body");
+    check_reference(entry, "body", force.body, names_of_bodies(scene), "body");
   if constexpr (requires { force.joint; }) {
     const bool angle = check_motion(scene, entry, force.joint, force.coordinate);
     check_bounds(entry, force, angle);
@@ -56,7 +56,7 @@ template <class Force> void check_force(const Scene& scene, const Force& force) 
       }
   }
   if constexpr (requires { force.bodies; }) {
-    std::vector<std::string> names = names_of(scene.bodies);
+    std::vector<std::string> names = names_of_bodies(scene);
     names.emplace_back(ground);
     bool moves = false;
     for (const std::string& body : force.bodies) {

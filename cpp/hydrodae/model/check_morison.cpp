@@ -43,7 +43,7 @@ void check_morison(const Scene& scene) {
   std::apply([&](const auto&... list) { (append_names(list, forces), ...); }, scene.forces);
   for (const Morison& m : scene.morison) {
     const Entry entry{"morison", m.name};
-    check_reference(entry, "body", m.body, names_of(scene.bodies), "body");
+    check_reference(entry, "body", m.body, names_of_bodies(scene), "body");
     check_shape(scene, m);
     for (const std::string& force : forces)
       if (force == m.name)

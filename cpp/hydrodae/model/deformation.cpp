@@ -26,10 +26,21 @@ Body make_mode(const Scene& scene, std::size_t k) {
   return body;
 }
 
+/// Does an attachment stay in the plane of its body?
+bool is_planar(const Body& carrier, const Attachment& place) {
+  const auto within = [](const Vector3& phi) { return phi[1] == 0.0; };
+  const auto about_y = [](const Vector3& psi) { return psi[0] == 0.0 && psi[2] == 0.0; };
+  return carrier.motion == std::vector<std::string>{"planar"} &&
+         std::all_of(place.displacement.begin(), place.displacement.end(), within) &&
+         std::all_of(place.rotation.begin(), place.rotation.end(), about_y);
+}
+
 Body make_attachment(const Scene& scene, std::size_t k) {
   const Attachment& place = scene.attachments[k];
   Body body;
   body.name = place.name;
+  if (is_planar(*find_named(scene.bodies, place.body), place))
+    body.motion = {"planar"};
   body.center_of_gravity = place.point;
   body.part = DeformablePart{false, k, place.body};
   return body;

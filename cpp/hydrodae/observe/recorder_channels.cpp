@@ -55,7 +55,7 @@ void Recorder::check_paths() const {
 
 void Recorder::make_channels() {
   for (const BodyData& b : s_.bodies) {
-    if (b.is_mode) {
+    if (b.is_mode()) {
       const std::string head = "modes/" + b.name + "/";
       add_channel(head + "amplitude", 1, "m", "-", "Of the mode, in the scale of its shape.");
       add_channel(head + "rate", 1, "m/s", "-", "Of the amplitude.");
@@ -139,7 +139,7 @@ void Recorder::make_channels() {
   for (const ComponentLoad& load : o.loads) {
     const std::string head =
         "forces/" + o.components[load.component] + "/" + s_.bodies[load.body].name + "/";
-    if (s_.bodies[load.body].is_mode) {
+    if (s_.bodies[load.body].is_mode()) {
       add_channel(head + "load", 1, "N", "-", "On the amplitude of the mode.");
       continue;
     }
@@ -174,7 +174,7 @@ void Recorder::fill_bodies(double*& out) {
   for (std::size_t i = 0; i < s_.bodies.size(); ++i) {
     const BodyData& b = s_.bodies[i];
     const BodyState<double>& state = states[i];
-    if (b.is_mode) {
+    if (b.is_mode()) {
       *out++ = state.r[0] - b.reference[0];
       *out++ = state.v[0];
       *out++ = state.v_dot[0];
@@ -279,7 +279,7 @@ void Recorder::fill(double t, std::span<double> row) {
   fill_joints(out);
   fill_markers(out);
   for (const ComponentLoad& load : seen().loads) {
-    if (s_.bodies[load.body].is_mode) {
+    if (s_.bodies[load.body].is_mode()) {
       *out++ = load.load[0];
       continue;
     }

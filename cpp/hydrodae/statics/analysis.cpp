@@ -54,10 +54,10 @@ void add_bodies(const Regime& s, const system::Workspace<double>& ws, const Vect
     out.rotations.emplace_back(xi.tail<3>());
     for (int k = 0; k < b.n_active; ++k)
       out.coordinates.push_back(
-          b.is_mode ? "modes/" + b.name + "/amplitude"
-                    : "bodies/" + b.name + "/" +
-                          std::string(model::coordinate_names[static_cast<std::size_t>(
-                              b.active[static_cast<std::size_t>(k)])]));
+          b.is_mode() ? "modes/" + b.name + "/amplitude"
+                      : "bodies/" + b.name + "/" +
+                            std::string(model::coordinate_names[static_cast<std::size_t>(
+                                b.active[static_cast<std::size_t>(k)])]));
   }
 }
 

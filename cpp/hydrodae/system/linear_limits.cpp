@@ -57,9 +57,9 @@ LinearLimits linear_limits(const model::Scene& scene, const System& s) {
   if (scene.sea.phase == "fixed" && !scene.waves.empty())
     out.tenth_wave = 0.1 * wave_length(scene);
   for (const HydroBody& hb : s.hydro.bodies) {
-    if (!hb.moves)
-      continue;
     const BodyData& b = s.bodies[static_cast<std::size_t>(hb.body)];
+    if (!hb.moves || b.is_mode())
+      continue;
     LinearLimits::Body watched;
     watched.body = hb.body;
     watched.name = b.name;

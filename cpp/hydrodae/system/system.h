@@ -34,9 +34,10 @@ namespace hydrodae::system {
 struct BodyData {
   enum class Rotation { locked, about_axis, free };
   std::string name;
-  bool is_mode = false;              ///< an amplitude of a body that deforms (model/deformation.h)
-  double mass = 0.0;                 ///< [kg]
-  Matrix3 inertia = Matrix3::Zero(); ///< about the centre of gravity, body axes [kg m2]
+  enum class Kind { whole, mode, attachment } kind = Kind::whole; ///< see model/deformation.h
+  bool is_mode() const { return kind == Kind::mode; }             ///< its x is the amplitude
+  double mass = 0.0;                                              ///< [kg]
+  Matrix3 inertia = Matrix3::Zero();          ///< about the centre of gravity, body axes [kg m2]
   Vector3 reference = Vector3::Zero();        ///< centre of gravity in the reference pose [m]
   Vector3 position = Vector3::Zero();         ///< start, and for ever along locked translations [m]
   Vector4 orientation{1, 0, 0, 0};            ///< start, and for ever if the rotation is locked

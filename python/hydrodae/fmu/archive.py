@@ -122,8 +122,8 @@ def _libraries(identifier: str) -> dict[str, bytes]:
     # the content, so that it never meets another build. It keeps its length in both files.
     mark = hashlib.sha256(kernel.read_bytes()).hexdigest()[: len(_core.version)]
     own = f"libhydrodae-{mark}.so"
-    told = {f"{identifier}.so": functions, own: kernel}
-    contents = {key: p.read_bytes().replace(name.encode(), own.encode()) for key, p in told.items()}
+    pair = {f"{identifier}.so": functions, own: kernel}
+    contents = {key: p.read_bytes().replace(name.encode(), own.encode()) for key, p in pair.items()}
     others = (package.parent / "hydrodae.libs").glob("*")
     return contents | {path.name: path.read_bytes() for path in sorted(others)}
 

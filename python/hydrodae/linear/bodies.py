@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from hydrodae.case.bodies import bodies_and_attachments
+
 Array = NDArray[np.float64]
 Table = Mapping[str, Any]
 
@@ -32,7 +34,7 @@ class Bodies:
 
     def __init__(self, model: AtRest, tables: Table) -> None:
         self.model = model
-        self._bodies = {body["name"]: body for body in tables.get("body", [])}
+        self._bodies = {body["name"]: body for body in bodies_and_attachments(tables)}
 
     def center(self, name: str) -> Array:
         """Centre of gravity at rest [m]."""

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hydrodae.case.bodies import bodies_and_attachments
 from hydrodae.hdb.database.coordinates import check_body
 from hydrodae.hdb.database.files import read as read_database
 from hydrodae.hdb.database.tables import Body as HydroBody
@@ -49,7 +50,7 @@ def make_bodies(
     HydrodaeError
         A shape that is asked for is wrong, or the database cannot be read.
     """
-    entries = tables.get("body", [])
+    entries = bodies_and_attachments(tables)
     for name in wanted:
         check_body(name, [entry["name"] for entry in entries])
     path = source.case.scene.database_path
@@ -80,7 +81,7 @@ def make_bodies(
 
 def attachments(tables: Mapping[str, Any]) -> dict[str, list[Array]]:
     """Points of each body, in the reference pose, at which something is attached to it."""
-    found: dict[str, list[Array]] = {entry["name"]: [] for entry in tables.get("body", [])}
+    found: dict[str, list[Array]] = {entry["name"]: [] for entry in bodies_and_attachments(tables)}
 
     def add(body: Any, point: Any) -> None:
         if body in found and point is not None:

@@ -18,14 +18,14 @@ class Computation(Import):
 
     Attributes
     ----------
-    bodies, settings, work, told
-        As in `hydrodae.hdb.compute`, `told` its `progress`.
+    bodies, settings, work, progress
+        As in `hydrodae.hdb.compute`.
     """
 
     bodies: Sequence[run.WettedBody] = ()
     settings: run.Settings = field(kw_only=True)
     work: Path = field(kw_only=True)
-    told: Callable[[int, int, float, float], None] | None = None
+    progress: Callable[[int, int, float, float], None] | None = None
 
 
 def weigh_panels(state: Computation) -> None:
@@ -35,7 +35,7 @@ def weigh_panels(state: Computation) -> None:
 
 def solve(state: Computation) -> None:
     """Take bodies and settings; add the `source`, the file of Capytaine's results in `work`."""
-    state.source = run.compute(state.bodies, state.settings, state.work, progress=state.told)
+    state.source = run.compute(state.bodies, state.settings, state.work, progress=state.progress)
 
 
 def add_panels(state: Computation) -> None:

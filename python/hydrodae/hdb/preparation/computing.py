@@ -53,6 +53,6 @@ def compute(
     DatabaseError
         Capytaine is missing, bad meshes, too many panels, or NaN at infinite frequency.
     """
-    state = Computation("", bodies=bodies, settings=settings, work=Path(work), told=progress)
+    state = Computation("", bodies=bodies, settings=settings, work=Path(work), progress=progress)
     pipeline.run(pipeline.COMPUTE, state)
     return state.database, CheckReport(state.findings)

@@ -191,9 +191,9 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
     data.added_mass_inf = None if limit is None else scale * limit
     data.reference_points.update(zip(names, control.points, strict=False))
     _attach_hydrostatics(data, stem, control, names, length, every)
-    if flexible := [label for label in coordinates if label not in rigid(coordinates)]:
+    if len(rigid(coordinates)) < len(coordinates):
         name, file = names[0], beside(stem, ".hst")
-        stiffness = _stiffness(file, control, np.arange(1.0, 7.0 + len(flexible)), every)
+        stiffness = _stiffness(file, control, np.r_[1.0:7.0, modes[modes > 6.0]], every)
         turns = np.isin(np.arange(len(stiffness)), (3, 4, 5))
         units = length ** (2.0 + turns[:, None] + turns)
         data.mode_stiffness[name] = rho * gravity * units * stiffness
