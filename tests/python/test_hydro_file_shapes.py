@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import h5py
@@ -56,12 +57,20 @@ CASES = [
 ]
 
 
+def with_mode(sphere: hdb.HydroDatabase) -> hdb.HydroDatabase:
+    """Return the sphere in heave, and its surge under the name of a mode."""
+    chosen = sphere.select(["sphere.heave", "sphere.surge"])
+    body = replace(chosen.bodies["sphere"], mode_stiffness=np.eye(7))
+    labels = ("sphere.heave", "sphere.bend")
+    return replace(chosen, coordinates=labels, bodies={"sphere": body})
+
+
 @pytest.fixture(scope="module")
 def whole(repository: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The sphere with a kernel, a fit and a mesh."""
+    """The sphere with a kernel, a fit, a mesh and a mode."""
     path = tmp_path_factory.mktemp("hydro") / "hydro.h5"
-    database = hdb.read(repository / "cases" / "sphere" / "hydro.h5").select(["sphere.heave"])
-    database = database.with_kernel(band=(0.3, 3.0))
+    database = with_mode(hdb.read(repository / "cases" / "sphere" / "hydro.h5"))
+    database = database.with_kernel(["sphere.heave"], band=(0.3, 3.0))
     database = hdb.fit(database, "sphere.heave", name="heave", band=(0.3, 3.0), target=0.01)
     database.with_meshes({"sphere": np.zeros((3, 4, 3))}).write(path)
     return path

@@ -244,8 +244,8 @@ hydro::Database read_hydro_file(const std::string& path, const HydroTables& tabl
   database.coordinates = file.labels("/coordinates");
   const std::size_t n = database.coordinates.size();
   const std::set<std::string> coordinates = label_set(file, "/coordinates", database.coordinates);
-  database.bodies = read_bodies(file, database.coordinates);
   database.added_mass_inf = file.matrix("/added_mass_inf", n, n);
+  database.bodies = read_bodies(file, database.coordinates);
   for (const std::string& name : file.members("/memory"))
     database.fits.push_back(read_fit(file, name, coordinates));
   if (tables.excitation || tables.radiation)
