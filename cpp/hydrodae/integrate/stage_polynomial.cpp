@@ -1,0 +1,74 @@
+#include "hydrodae/integrate/stage_polynomial.h"
+
+namespace hydrodae::integrate {
+
+namespace {
+
+/// q' = E(q) u of the bodies (n_q,): quaternions turn by half the angular velocity.
+VectorX position_rates(const system::Regime& s, const VectorX& y) {
+  VectorX rates = VectorX::Zero(s.n_q);
+  for (const system::BodyData& b : s.bodies) {
+    const bool free = b.rotation == system::BodyData::Rotation::free;
+    const Index q = b.q0 + b.n_translations;
+    for (int k = 0; k < (free ? b.n_translations : b.n_active); ++k)
+      rates[b.q0 + k] = y[b.u0 + k];
+    if (free)
+      rates.segment<4>(q) = 0.5 * quaternion_rate_matrix<double>(Vector4(y.segment<4>(q))) *
+                            y.segment<3>(b.u0 + b.n_translations);
+  }
+  return rates;
+}
+
+/// Of Lagrange through the stages at x: of stage i.
+double stage_weight(const RungeKutta& rk, int i, double x) {
+  double weight = 1.0;
+  for (int j = 0; j < rk.stages; ++j)
+    if (j != i)
+      weight *= (x - rk.c[j]) / (rk.c[i] - rk.c[j]);
+  return weight;
+}
+
+} // namespace
+
+void evaluate_stages(const system::Regime& s, const RungeKutta& rk, const VectorX& start,
+                     const MatrixX& Z, double x, VectorX& y) {
+  const bool with_start = rk.family != Family::lobatto_iiic;
+  y = start;
+  for (int i = 0; i < rk.stages; ++i) {
+    const double stages_only = stage_weight(rk, i, x);
+    const double weight = with_start ? stages_only * x / rk.c[i] : stages_only;
+    const Index n = s.lambda0, m = s.n - n;
+    if (with_start || i > 0) // the first stage of Lobatto IIIC misses the start by h^s
+      y.head(n) += weight * Z.col(i).head(n);
+    y.tail(m) += (rk.family == Family::gauss ? stages_only : weight) * Z.col(i).tail(m);
+  }
+}
+
+void StagePolynomial::accept(double t0, double h, const VectorX& y0, const MatrixX& Z,
+                             const MatrixX& rates) {
+  t0_ = t0;
+  h_ = h;
+  y0_ = y0;
+  Z_ = Z;
+  rates_ = rates;
+}
+
+void StagePolynomial::end_at(const VectorX& y) {
+  slope0_ = position_rates(s_, y0_);
+  slope_ = position_rates(s_, y);
+}
+
+void StagePolynomial::evaluate_rates(double x, VectorX& yp) const {
+  yp.setZero(s_.n);
+  for (int i = 0; i < rk_->stages; ++i)
+    yp += stage_weight(*rk_, i, x) * rates_.col(i);
+}
+
+void StagePolynomial::between_ends(double x, const VectorX& end, VectorX& y) const {
+  const double v = 1.0 - x;
+  y.head(s_.lambda0) = v * y0_.head(s_.lambda0) + x * end.head(s_.lambda0);
+  const VectorX change = (end - y0_).head(s_.n_q);
+  y.head(s_.n_q) += x * v * (v * (h_ * slope0_ - change) - x * (h_ * slope_ - change));
+}
+
+} // namespace hydrodae::integrate

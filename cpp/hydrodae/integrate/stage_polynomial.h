@@ -1,0 +1,54 @@
+#pragma once
+/// The polynomial of a step of a collocation method, through its start and its stages.
+
+#include "hydrodae/integrate/runge_kutta.h"
+#include "hydrodae/system/system.h"
+
+namespace hydrodae::integrate {
+
+/// y at x = (t - t0) / h of a step with increments Z (n, s) from `start`: Lobatto's first stage
+/// stands at the start itself, and multipliers of Gauss have no value there.
+void evaluate_stages(const system::Regime& system, const RungeKutta& rk, const VectorX& start,
+                     const MatrixX& Z, double x, VectorX& y);
+
+/// That of the last step.
+class StagePolynomial {
+public:
+  explicit StagePolynomial(const system::Regime& system) : s_(system) {}
+
+  /// @param rk must outlive it
+  void set_method(const RungeKutta& rk) { rk_ = &rk; }
+
+  /// The step of length h from t0, y0 with increments Z and rates of the stages (n, s).
+  void accept(double t0, double h, const VectorX& y0, const MatrixX& Z, const MatrixX& rates);
+  /// Its end, for `between_ends`.
+  void end_at(const VectorX& y);
+  /// There is no last step any more.
+  void clear() { h_ = 0.0; }
+
+  bool empty() const { return h_ == 0.0; }
+  int stages() const { return static_cast<int>(Z_.cols()); }
+  double length() const { return h_; } ///< [s]
+  double place(double t) const { return (t - t0_) / h_; }
+  const RungeKutta& rk() const { return *rk_; }
+
+  void evaluate(double x, VectorX& y) const { evaluate_stages(s_, *rk_, y0_, Z_, x, y); }
+  /// y' through the stages alone.
+  void evaluate_rates(double x, VectorX& yp) const;
+  /// Replaces positions and velocities of y where the interpolant is a line: velocities on a line
+  /// between both ends of the step, positions on the cubic that has their rates there, so that what
+  /// falls does so on a parabola. `end`: y at the end of the step.
+  void between_ends(double x, const VectorX& end, VectorX& y) const;
+
+  void remember(Archive& a) { a(Z_, rates_, y0_, t0_, h_, slope0_, slope_); }
+
+private:
+  const system::Regime& s_;
+  const RungeKutta* rk_ = nullptr;
+  double t0_ = 0.0, h_ = 0.0;
+  VectorX y0_;
+  MatrixX Z_, rates_;
+  VectorX slope0_, slope_; ///< rates of the positions at both ends, where it is a line
+};
+
+} // namespace hydrodae::integrate

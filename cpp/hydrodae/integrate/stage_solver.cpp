@@ -1,0 +1,100 @@
+#include "hydrodae/integrate/stage_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hydrodae::integrate {
+
+void StageSolver::use(StageNewton& newton) {
+  newton_ = &newton;
+  factored_ = 0.0;
+}
+
+/// First guess of the stages: the last step's polynomial, or a straight line.
+void StageSolver::start_values(double h, bool extrapolate) {
+  const RungeKutta& rk = newton_->rk();
+  stages_.resize(e_.system.n, rk.stages);
+  if (extrapolate) {
+    for (int i = 0; i < rk.stages; ++i) {
+      last_.evaluate(1.0 + rk.c[i] * h / last_.length(), guess_);
+      stages_.col(i) = guess_ - from_.y;
+    }
+    return;
+  }
+  for (int i = 0; i < rk.stages; ++i) {
+    stages_.col(i) = rk.c[i] * h * from_.yp;
+    stages_.col(i).tail(e_.system.n - e_.system.lambda0).setZero();
+  }
+}
+
+/// One Jacobian for all stages: in the middle of the step, by the last polynomial if there is one:
+/// so that it differs least from that of any stage; else at the start.
+void StageSolver::jacobian(double h, bool extrapolate) {
+  if (extrapolate) {
+    const double x = 1.0 + 0.5 * h / last_.length();
+    last_.evaluate(x, guess_);
+    last_.evaluate_rates(x, guess_rate_);
+    e_.jacobian(from_.t + 0.5 * h, guess_, guess_rate_);
+  } else {
+    e_.jacobian(from_.t, from_.y, from_.yp);
+  }
+  fresh_ = true;
+  factored_ = extra_ = 0.0;
+}
+
+/// Do the matrices at hand serve a step h? Where Newton contracts at once; where they are
+/// expensive, until the iterations that they cost beyond those of new ones are worth a renewal.
+bool StageSolver::serves(double h) const {
+  constexpr double same = 1e-9;
+  constexpr double dear = 4.0; // iterations
+  return factored_ > 0.0 && std::abs(h - factored_) <= same * h &&
+         (at_once() || (newton_->renewal() >= dear && extra_ < newton_->renewal() && wait_ == 0));
+}
+
+bool StageSolver::simplified(double h) {
+  constexpr double longest_guess = 3.0; // steps of the last polynomial
+  constexpr int most_wary = 15;         // steps
+  bool extrapolate = !last_.empty() && h <= longest_guess * last_.length();
+  bool renew = !fresh_ && !(factored_ > 0.0 && at_once()) && !serves(h);
+  for (;;) {
+    if (renew)
+      jacobian(h, extrapolate);
+    const bool serving = serves(h), old = serving && !at_once();
+    if (serving || newton_->factorise(h)) {
+      factored_ = h;
+      start_values(h, extrapolate);
+      if (newton_->simplified(from_.t, h, from_.y, from_.w, stages_) == NewtonResult::converged) {
+        last_contraction_ = newton_->contraction;
+        if (old) {
+          extra_ += std::max(0, newton_->iterations - iterations_);
+          wary_ = 0;
+        } else {
+          wait_ = std::max(0, wait_ - 1);
+          contraction_ = newton_->contraction;
+          iterations_ = newton_->iterations;
+        }
+        was_full_ = false;
+        return true;
+      }
+      if (old)
+        wait_ = wary_ = std::min(2 * wary_ + 1, most_wary);
+    }
+    if (fresh_ && !extrapolate)
+      break;
+    extrapolate = extrapolate && !fresh_;
+    renew = true;
+  }
+  fresh_ = false;
+  factored_ = 0.0;
+  return false;
+}
+
+bool StageSolver::full(double h) {
+  start_values(h, false);
+  fresh_ = false; // the Jacobian at hand will be that of a stage
+  factored_ = 0.0;
+  was_full_ = newton_->full(from_.t, h, from_.y, from_.w, stages_) == NewtonResult::converged;
+  return was_full_;
+}
+
+} // namespace hydrodae::integrate
