@@ -61,8 +61,11 @@ py::tuple with_images(const std::vector<std::string>& coordinates, const py::dic
                       const std::vector<double>& water) {
   hydro::Database db;
   db.coordinates = coordinates;
-  for (const auto& [name, point] : points)
-    db.bodies.push_back({name.cast<std::string>(), point.cast<Vector3>(), {}});
+  for (const auto& [name, point] : points) {
+    hydro::DatabaseBody& body = db.bodies.emplace_back();
+    body.name = name.cast<std::string>();
+    body.reference_point = point.cast<Vector3>();
+  }
   db.added_mass_inf = added_mass_inf;
   db.omega = omega;
   db.damping = damping;

@@ -67,6 +67,8 @@ def measure(name: str) -> None:
     import time
     import warnings
 
+    import numpy as np
+
     from hydrodae.hdb.memory import fit_memory
 
     table, labels, options = problem(name)
@@ -74,11 +76,12 @@ def measure(name: str) -> None:
     start = time.process_time()
     fit = fit_memory(table, labels, **options)
     spent = time.process_time() - start
+    fastest = float(np.abs(fit.poles).max() / table.omega[-1])
     report, peak = fit.report, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
     print(
         f"{name:14s} {len(labels):4d} {spent:8.1f} {fit.n_states:7d} {report['passive']!s:>8} "
         f"{report['h_error_band']:9.1e} {report['h_error_peak']:9.1e} "
-        f"{report['target_met']!s:>6} {peak:7.2f}",
+        f"{report['target_met']!s:>6} {peak:7.2f} {fastest:7.2f}",
         flush=True,
     )
 
@@ -96,7 +99,7 @@ def main() -> int:
         return 0
     print(
         f"{'table':14s} {'n':>4s} {'CPU s':>8s} {'states':>7s} {'passive':>8s} {'rms band':>9s} "
-        f"{'peak':>9s} {'target':>6s} {'GB':>7s}",
+        f"{'peak':>9s} {'target':>6s} {'GB':>7s} {'fastest':>7s}",
         flush=True,
     )
     path = os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")])

@@ -15,6 +15,7 @@ from hydrodae.hdb.memory.fit import _near as as_near
 from hydrodae.hdb.memory.goal import Goal, Quality
 from hydrodae.hdb.memory.modes import Problem
 from hydrodae.hdb.memory.noise import noise as noise_of
+from hydrodae.hdb.memory.vector_fitting import Limits
 from hydrodae.hdb.preparation.fit_stages import goes_on
 from hydrodae.hdb.preparation.left_out import cure, ways_out
 
@@ -146,7 +147,7 @@ def test_noise_of_a_table_is_what_was_added():
 
     def problem(value):
         samples = with_zero(omega, value[:, None], np.ones((omega.size, 1)))
-        return Problem(samples, rows, rows, 1, omega, least_damping(omega))
+        return Problem(samples, rows, rows, 1, Limits(omega, least_damping(omega)))
 
     mass = np.array([2.0])
     assert noise_of(problem(smooth), mass, (0.3, 2.0)) < 1e-5

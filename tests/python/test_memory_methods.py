@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from tests.python.resonances import LABELS, exact_transfer, table
 from tests.verification.point_absorbers import Table
 
+from hydrodae import hdb
 from hydrodae.hdb.memory import MemoryFitWarning, fit_memory
 from hydrodae.hdb.memory import data as prepare
 from hydrodae.hdb.memory.candidate import Candidate, Search
 from hydrodae.hdb.memory.direct import direct
 from hydrodae.hdb.memory.goal import Goal, measure
+from hydrodae.hdb.memory.vector_fitting import FASTEST, SEEN
 
 
 @pytest.fixture(scope="module")
@@ -63,6 +66,7 @@ def test_a_vector_fit_alone_finds_them_where_the_table_ends_early() -> None:
     pick = np.arange(len(LABELS))
     matrices = prepare.scaled(data.square, data.scale, pick)
     problem = prepare.make_problem(data.omega, matrices, goal.band, goal.factor)
+    problem = replace(problem, limits=problem.limits._replace(fastest=FASTEST))
     said: list[str] = []
 
     def best(cap: int | None) -> Candidate:
@@ -79,6 +83,20 @@ def test_a_vector_fit_alone_finds_them_where_the_table_ends_early() -> None:
     few = best(6)
     assert few.passive
     assert few.modes.n_states <= 6
+
+
+def test_poles_stay_within_the_table_unless_the_fit_needs_faster_ones(
+    exact: Table, repository: Path
+) -> None:
+    sphere = hdb.read(repository / "cases" / "sphere" / "hydro.h5")
+    fit = fit_memory(sphere, ["sphere.heave"], band=(0.3, 3.0), target=1e-4)
+    assert fit.report["target_met"] is True
+    assert -fit.poles.real.min() <= SEEN * sphere.omega[-1] * (1.0 + 1e-9)
+    # the same modes in a table that ends below their frequencies
+    omega = np.arange(0.02, 0.83, 0.02)
+    short = fit_memory(table(exact_transfer(omega), omega), LABELS, band=(0.1, 0.8), uniform=1e-3)
+    assert short.report["passive"] is True
+    assert short.report["target_met"] is True
 
 
 def test_errors_that_alternate_rank_before_smaller_ones_that_stay(exact: Table) -> None:

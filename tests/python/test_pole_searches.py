@@ -11,7 +11,14 @@ from hydrodae import hdb
 from hydrodae.hdb.memory import fit_memory, poles
 from hydrodae.hdb.memory.modes import Searches
 from hydrodae.hdb.memory.reach import MOST_POLES, reach
-from hydrodae.hdb.memory.vector_fitting import Samples, basis, relocate, relocated, starting_poles
+from hydrodae.hdb.memory.vector_fitting import (
+    Limits,
+    Samples,
+    basis,
+    relocate,
+    relocated,
+    starting_poles,
+)
 
 
 def _least_error(found: np.ndarray, data: Samples) -> float:
@@ -34,11 +41,11 @@ def test_a_relocation_tells_the_error_of_the_poles_it_started_from() -> None:
     value = rng.normal(size=(60, 3)) + 1j * rng.normal(size=(60, 3))
     data = Samples(omega, value, rng.uniform(0.5, 2.0, (60, 3)))
     start = starting_poles(8, 2, 0.1, 4.0, 0.05, logarithmic=False)
-    limits = omega, 0.01 * omega
-    moved, error = relocate(start, data, *limits)
+    limits = Limits(omega, 0.01 * omega)
+    moved, error = relocate(start, data, limits)
     assert error == pytest.approx(_least_error(start, data), rel=1e-9)
-    assert relocate(moved, data, *limits)[1] == pytest.approx(_least_error(moved, data), rel=1e-9)
-    least, best = relocated(start, data, *limits, 5, 3)
+    assert relocate(moved, data, limits)[1] == pytest.approx(_least_error(moved, data), rel=1e-9)
+    least, best = relocated(start, data, limits, 5, 3)
     assert least == pytest.approx(_least_error(best, data), rel=1e-9)
 
 
@@ -66,7 +73,7 @@ def test_a_fit_takes_the_searches_of_the_look_and_nothing_else(
     searches: Searches = {}
     reach(table, moving, band=band, searches=searches)
     assert searches
-    assert max(count for count, _ in searches) <= MOST_POLES
+    assert max(count for count, *_ in searches) <= MOST_POLES
     served, third = fitted(searches)
     assert served < alone
     np.testing.assert_array_equal(first, second)

@@ -6,8 +6,10 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/integrate/body_space.h"
 #include "hydrodae/integrate/explicit_tableaux.h"
 #include "hydrodae/integrate/stiffness.h"
+#include "hydrodae/system/mechanisms.h"
 #include "hydrodae/tree/joint_space.h"
 
 namespace hydrodae::integrate {
@@ -22,55 +24,6 @@ struct Pair {
 const Pair order_5{6, 5, tableaux::rk5_a, tableaux::rk5_b, tableaux::rk5_c};
 const Pair order_8{12, 8, tableaux::rk8_a, tableaux::rk8_b, tableaux::rk8_c};
 
-/// The coordinates of the bodies themselves: x = y, with all multipliers. Another space is that of
-/// the joints, with the same functions (joint_space.h).
-class BodySpace {
-public:
-  explicit BodySpace(linalg::Equations& equations) : e_(equations), saddle_(equations) {}
-  Index size() const { return e_.system.lambda0; } ///< of what the method integrates in x
-  void enter(double t, const VectorX& y, const VectorX& yp, VectorX& x, VectorX& xp) {
-    x = y;
-    xp = yp;
-    e_.accept(t, y, yp);
-  }
-  void follow() {}
-  bool rates(double t, VectorX& x, VectorX& xp) { return saddle_.accelerations(t, x, xp); }
-  bool project(double t, VectorX& x) { return saddle_.project(t, x); }
-  bool close(double t, VectorX& x, const VectorX&) {
-    saddle_.close(t, x);
-    return true;
-  }
-  void accept(double t, const VectorX& x, const VectorX& xp) { e_.accept(t, x, xp); }
-  static bool leave(double, const VectorX& x, const VectorX& xp, VectorX& y, VectorX& yp) {
-    y = x;
-    yp = xp;
-    return true;
-  }
-  static const VectorX& of_bodies(const VectorX&, const VectorX& change) { return change; }
-  static constexpr bool is_of_bodies = true;
-  const std::string& jam() const { return saddle_.jam(); }
-  static linalg::Statistics statistics() { return {}; }
-
-private:
-  linalg::Equations& e_;
-  linalg::SaddlePoint saddle_;
-};
-
-/// Do reactions neither do work nor press friction, and are all states rates? Then the powers of
-/// all forces follow from positions, velocities and states.
-bool has_idle_reactions(const system::Regime& s) {
-  return s.switches.empty() &&
-         std::none_of(s.couplers.begin(), s.couplers.end(),
-                      [](const system::CouplerData& c) {
-                        return c.velocity_level || c.drive.moves() || c.drive.rate != 0.0;
-                      }) &&
-         std::none_of(
-             s.elements.begin(), s.elements.end(),
-             [](const system::ElementList& list) { return list.laws->shape.n_reaction > 0; }) &&
-         std::find(s.algebraic.begin() + s.z0, s.algebraic.begin() + s.memory0, true) ==
-             s.algebraic.begin() + s.memory0;
-}
-
 /// In coordinates x of a Space; y are always those of the bodies.
 template <class Space> class ExplicitRk : public Integrator {
 public:
@@ -78,8 +31,8 @@ public:
              const model::SolverOptions& options, double t0, const VectorX& y, const VectorX& yp)
       : pair_(options.order == 5 ? order_5 : order_8), fixed_(options.step > 0.0),
         max_step_(options.max_step > 0.0 ? options.max_step : options.end_time),
-        idle_reactions_(Space::is_of_bodies && has_idle_reactions(system)), full_pattern_(pattern),
-        e_(system, pattern, options.rtol), space_(e_), n_(space_.size()),
+        idle_reactions_(Space::is_of_bodies && system::has_idle_reactions(system)),
+        full_pattern_(pattern), e_(system, pattern, options.rtol), space_(e_), n_(space_.size()),
         guard_(t0, options.end_time, e_.time_scale()), t_(t0), t0_(t0), y_(y), yp_(yp),
         w_(system.n), k_(n_, 17) {
     space_.enter(t_, y_, yp_, x_, xp_);

@@ -1,8 +1,13 @@
 #include "hydrodae/io/hdf5_collections.h"
 
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cstdint>
-#include <fstream>
-#include <iterator>
+#include <cstring>
+#include <string_view>
 
 #include "hydrodae/core/error.h"
 
@@ -12,7 +17,7 @@ namespace {
 constexpr std::size_t header = 16; ///< bytes of the header of a collection, and of an object
 
 /// Little-endian number of `size` bytes.
-std::uint64_t number_at(const std::string& bytes, std::size_t at, std::size_t size) {
+std::uint64_t number_at(std::string_view bytes, std::size_t at, std::size_t size) {
   std::uint64_t value = 0;
   for (std::size_t k = size; k-- > 0;)
     value = value << 8 | static_cast<unsigned char>(bytes[at + k]);
@@ -20,7 +25,7 @@ std::uint64_t number_at(const std::string& bytes, std::size_t at, std::size_t si
 }
 
 /// Do the objects of the collection at `start` follow each other up to its end?
-bool sound(const std::string& bytes, std::size_t start, std::uint64_t size) {
+bool sound(std::string_view bytes, std::size_t start, std::uint64_t size) {
   std::uint64_t at = header;
   while (size - at >= header) {
     const std::uint64_t index = number_at(bytes, start + at, 2);
@@ -36,16 +41,47 @@ bool sound(const std::string& bytes, std::size_t start, std::uint64_t size) {
   return true;
 }
 
+/// The bytes of a file, without a copy; none of one that cannot be read.
+class MappedFile {
+public:
+  explicit MappedFile(const std::string& path) {
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    struct stat status{};
+    if (descriptor >= 0 && fstat(descriptor, &status) == 0 && status.st_size > 0) {
+      size_ = static_cast<std::size_t>(status.st_size);
+      start_ = mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, descriptor, 0);
+    }
+    if (descriptor >= 0)
+      ::close(descriptor);
+  }
+  ~MappedFile() {
+    if (start_ != MAP_FAILED)
+      munmap(start_, size_);
+  }
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+
+  std::string_view bytes() const {
+    return start_ == MAP_FAILED ? std::string_view()
+                                : std::string_view(static_cast<const char*>(start_), size_);
+  }
+
+private:
+  void* start_ = MAP_FAILED;
+  std::size_t size_ = 0;
+};
+
 } // namespace
 
 void check_collections(const std::string& path) {
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  std::string bytes(file ? static_cast<std::size_t>(file.tellg()) : 0, '\0');
-  file.seekg(0);
-  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(file.gcount()));
-  const std::string mark("GCOL\1\0\0\0", 8);
-  for (std::size_t at = 0; (at = bytes.find(mark, at)) != std::string::npos; at += mark.size()) {
+  constexpr std::string_view mark("GCOL\1\0\0\0", 8);
+  const MappedFile file(path);
+  const std::string_view bytes = file.bytes();
+  for (std::size_t at = 0; at < bytes.size(); at += mark.size()) {
+    const void* found = memmem(bytes.data() + at, bytes.size() - at, mark.data(), mark.size());
+    if (!found)
+      return;
+    at = static_cast<std::size_t>(static_cast<const char*>(found) - bytes.data());
     if (bytes.size() - at < header)
       return;
     const std::uint64_t size = number_at(bytes, at + 8, 8);

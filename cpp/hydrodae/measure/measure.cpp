@@ -4,10 +4,13 @@
 #include <array>
 #include <cmath>
 
+#include "hydrodae/system/mechanisms.h"
+
 namespace hydrodae::measure {
 
 Measure::Measure(const system::Regime& system, double t0, const VectorX& y, const VectorX& yp)
-    : s_(system), observer_(system), t_(t0), end_(t0), y_(y), yp_(yp) {
+    : s_(system), observer_(system), idle_(system::has_idle_reactions(system)), t_(t0), end_(t0),
+      y_(y), yp_(yp) {
   const Observation& o = observer_.observe(t0, y, yp);
   power_ = powers();
   work_ = end_work_ = std::vector<double>(power_.size(), 0.0);
@@ -30,7 +33,10 @@ void Measure::begin(double t, const Interpolant& at) {
   for (std::size_t node = 1; node <= last; ++node) {
     const double time = node == last ? t : t_ + (t - t_) * rule_.nodes[node];
     at(time, y_, yp_);
-    observer_.observe(time, y_, yp_);
+    if (idle_ && node < last)
+      observer_.observe_powers(time, y_, yp_);
+    else
+      observer_.observe(time, y_, yp_);
     powers_[node] = powers();
   }
   end_work_ = work_;

@@ -126,7 +126,8 @@ private:
 
   const system::Regime& s_;
   Observer observer_;
-  double t_, end_; ///< start and end of the step [s]
+  const bool idle_; ///< reactions do no work
+  double t_, end_;  ///< start and end of the step [s]
   /// Per component, at t_; with several mechanisms then per load and per mechanism its rows.
   std::vector<double> power_, work_;
   std::vector<std::vector<double>> powers_;  ///< at the nodes of the step; empty: by its stages

@@ -25,8 +25,6 @@ void Simulation::look(double t, VectorX& y) {
     return;
   VectorX yp(y_.size());
   inside_(t, y, yp);
-  if (closing_)
-    closing_->close(t, y);
 }
 
 /// The columns behind those of the recorder.

@@ -96,6 +96,18 @@ void find_mechanisms(System& s) {
   s.n_groups = sets.number(s, &BodyData::group);
 }
 
+bool has_idle_reactions(const Regime& s) {
+  return s.switches.empty() &&
+         std::none_of(s.couplers.begin(), s.couplers.end(),
+                      [](const CouplerData& c) {
+                        return c.velocity_level || c.drive.moves() || c.drive.rate != 0.0;
+                      }) &&
+         std::none_of(s.elements.begin(), s.elements.end(),
+                      [](const ElementList& list) { return list.laws->shape.n_reaction > 0; }) &&
+         std::find(s.algebraic.begin() + s.z0, s.algebraic.begin() + s.memory0, true) ==
+             s.algebraic.begin() + s.memory0;
+}
+
 void set_groups(System& s) {
   s.blocks.clear();
   s.group.assign(static_cast<std::size_t>(s.lambda0), 0);

@@ -25,6 +25,10 @@ const BodyData* moving_body(const System& system, const PortData& port);
 /// own?
 std::vector<bool> guided_mechanisms(const Regime& regime);
 
+/// Do reactions neither do work nor press friction, and are all states rates? Then the powers of
+/// all forces follow from positions, velocities and states.
+bool has_idle_reactions(const Regime& regime);
+
 /// The group of each position, velocity and memory state, and the blocks; needs their offsets.
 void set_groups(System& system);
 

@@ -131,7 +131,7 @@ class _Array:
 
         Where a block is weak, an equal share of the error of the whole is enough for it.
         """
-        inside = prepare.in_band(self.whole.damping_grid, goal.band)
+        inside = prepare.in_band(self.whole.limits.omega, goal.band)
         number = sum(len(block.bases) for block in self.blocks)
         sizes = [self._sizes(problem, inside) for problem in self.problems]
         whole = self._sizes(self.whole, inside)
@@ -257,7 +257,7 @@ def _fit_block(
     """Fit one block; none where it is too small to matter."""
     n = problem.size
     mass = prepare.first_added_mass(
-        problem.damping_grid, problem.matrix(problem.samples.value[:-1]), goal.band
+        problem.limits.omega, problem.matrix(problem.samples.value[:-1]), goal.band
     )[problem.rows, problem.columns]
     none = Modes(np.zeros(0, complex), np.zeros((0, n), complex), np.zeros(0), mass)
     found = quality(none, problem, goal.band)

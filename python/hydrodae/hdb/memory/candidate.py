@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
+import numpy as np
+
 from hydrodae.hdb.memory import passivity
 from hydrodae.hdb.memory.clock import SEARCH
 from hydrodae.hdb.memory.goal import Goal, Progress, Quality, quality
 from hydrodae.hdb.memory.modes import Modes, Problem, error
 from hydrodae.hdb.memory.penalty import press
+from hydrodae.hdb.memory.vector_fitting import SEEN
 
 NEARLY = 1.3
 """Where no fit meets the goal, one within this factor of the best with fewer states is taken. So
@@ -116,6 +119,21 @@ class Search:
         """Return whether the last candidate is within `share` of the goal, passive or not."""
         return self.goal.met(self.judged[-1].quality, share)
 
+    @property
+    def done(self) -> bool:
+        """Return whether a passive candidate meets the goal."""
+        return any(self.goal.met(made.quality) for made in self.passive)
+
+    @property
+    def held(self) -> bool:
+        """Return whether a candidate has a pole at the limit of its decay rate."""
+        limit = self.problem.limits.fastest * self.problem.limits.omega[-1]
+        return any(np.any(made.modes.poles.real <= -0.999 * limit) for made in self.judged)
+
+    def hold_poles(self, fastest: float) -> None:
+        """Hold the poles of the next candidates below a decay rate, over the last frequency."""
+        self.problem = replace(self.problem, limits=self.problem.limits._replace(fastest=fastest))
+
     def judge(self, modes: Modes, method: str) -> None:
         """Make a model passive, and keep it with its verdict."""
         made = made_passive(
@@ -145,7 +163,7 @@ class Search:
         """Return the fewest states that meet the goal, passive; or what comes nearest.
 
         Of passive ones that all miss the goal, the fewest states of those that are nearly as good
-        as the best; if none is passive, the one with the least error.
+        as the best, with slow poles if these do; if none is passive, the one with the least error.
         """
         limited = self.problem.clock.over(SEARCH)
         passive = self.passive
@@ -154,13 +172,19 @@ class Search:
             return replace(found, limited=limited)
         near = [made for made in passive if self.goal.met(made.quality)]
         if not near:
-            distance = [self.goal.distance(made.quality) for made in passive]
-            limit = (NEARLY if self.cap is None else EQUAL) * min(distance)
-            near = [made for made, off in zip(passive, distance, strict=True) if off <= limit]
+            slow = [made for made in passive if made.problem.limits.fastest <= SEEN]
+            nearly = slow and self._least(slow) <= NEARLY * self._least(passive)
+            tried = slow if nearly else passive
+            limit = (NEARLY if self.cap is None else EQUAL) * self._least(tried)
+            near = [made for made in tried if self.goal.distance(made.quality) <= limit]
         found = min(near, key=lambda made: made.modes.n_states)
         if not self.goal.met(found.quality) and not self.many:
             found = self._polished(found)
         return replace(found, limited=limited)
+
+    def _least(self, fits: list[Candidate]) -> float:
+        """Return the least distance of these fits from the goal."""
+        return min(self.goal.distance(made.quality) for made in fits)
 
     def _polished(self, found: Candidate) -> Candidate:
         """Refit passive modes with constraints, which lie nearer to the best fit than a penalty."""

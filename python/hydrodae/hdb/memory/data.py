@@ -14,6 +14,7 @@ from hydrodae.hdb.memory.modes import Problem, Searches
 from hydrodae.hdb.memory.vector_fitting import (
     Array,
     ComplexArray,
+    Limits,
     Samples,
     relocate,
     solve_residues,
@@ -250,12 +251,11 @@ def make_problem(
     rows, columns = np.triu_indices(n)
     value = matrices[:, rows, columns]
     double = np.where(rows == columns, 1.0, np.sqrt(2.0))
-    damping = least_damping(omega)
     mass = (first_added_mass(omega, matrices, band) if added_mass is None else added_mass)[
         rows, columns
     ]
     samples = with_zero(omega, value, double * weigh(value, omega, mass, band, factor))
-    return Problem(samples, rows, columns, n, omega, damping)
+    return Problem(samples, rows, columns, n, Limits(omega, least_damping(omega)))
 
 
 def least_damping(omega: Array) -> Array:
@@ -265,7 +265,7 @@ def least_damping(omega: Array) -> Array:
 
 def first_added_mass(omega: Array, matrices: ComplexArray, band: tuple[float, float]) -> Array:
     """Estimate A_inf (n, n) of the scaled Z (nw, n, n) by a vector fit with twelve poles."""
-    n, damping = matrices.shape[1], least_damping(omega)
+    n, limits = matrices.shape[1], Limits(omega, least_damping(omega))
     rows, columns = np.triu_indices(n)
     value = matrices[:, rows, columns]
     double = np.where(rows == columns, 1.0, np.sqrt(2.0))
@@ -275,7 +275,7 @@ def first_added_mass(omega: Array, matrices: ComplexArray, band: tuple[float, fl
     )
     for _ in range(8):
         samples = with_zero(omega, value, double * weigh(value, omega, added_mass, band, 10.0))
-        poles, _ = relocate(poles, samples, omega, damping)
+        poles, _ = relocate(poles, samples, limits)
         added_mass = solve_residues(poles, samples)[-1]
     full = np.zeros((n, n))
     full[rows, columns] = full[columns, rows] = added_mass

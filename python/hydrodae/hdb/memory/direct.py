@@ -94,7 +94,7 @@ def _poles(problem: Problem, goal: Goal, say: Progress) -> ComplexArray:
 
 def _relocated(problem: Problem, count: int) -> ComplexArray:
     """Relocate the poles from three starts; return those of the least weighted error."""
-    omega = problem.damping_grid
+    omega = problem.limits.omega
     low, high = float(omega[0]), float(omega[-1])
     middle = float(np.sqrt(low * high))
     starts = [
@@ -102,7 +102,7 @@ def _relocated(problem: Problem, count: int) -> ComplexArray:
         starting_poles(count, 2, low, high, ratio=0.05, logarithmic=True),
         starting_poles(count, 4, middle, 0.85 * high, ratio=0.05, logarithmic=False),
     ]
-    trials = (relocated(poles, problem.samples, omega, problem.damping, 10, 4) for poles in starts)
+    trials = (relocated(poles, problem.samples, problem.limits, 10, 4) for poles in starts)
     return min(trials, key=lambda item: item[0])[1]
 
 

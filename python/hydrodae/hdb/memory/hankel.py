@@ -134,7 +134,7 @@ def realise(kernel: _Kernel, count: int, problem: Problem) -> Modes:
     sign = np.where(single & (ratio.real < 0.0), -1.0, 1.0)
     factor = np.where(single, np.sqrt(np.abs(ratio.real)), np.sqrt(ratio))
     both = factor[:, None] * np.where(single[:, None], inlet.real, inlet)
-    poles = limited(poles, problem.damping_grid, problem.damping)
+    poles = limited(poles, problem.limits)
     samples, omega = problem.samples, problem.samples.omega[:-1, None]
     modes = Modes(poles, both, sign, np.zeros(problem.rows.size))
     entries = impedance(modes, omega[:, 0])[:, problem.rows, problem.columns]

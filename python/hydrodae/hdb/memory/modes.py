@@ -25,6 +25,7 @@ from hydrodae.hdb.memory.partial_fractions import partial_fractions, pole_slopes
 from hydrodae.hdb.memory.vector_fitting import (
     Array,
     ComplexArray,
+    Limits,
     Samples,
     is_real,
     limited,
@@ -37,7 +38,7 @@ CHUNK = 20_000_000
 """Numbers that the assembly of the normal equations holds at a time (160 MB)."""
 PARAMETERS = 14_000
 """Most parameters of a fit: their normal matrix takes 1.6 GB."""
-Searches = dict[tuple[int, bytes], tuple[float, ComplexArray]]
+Searches = dict[tuple[int, float, bytes], tuple[float, ComplexArray]]
 """Searches of poles that were made, and their results; see `hydrodae.hdb.memory.poles`."""
 FIRST, SECOND = np.triu_indices(6)
 """Pairs of the six kinds of parameters that an entry of Z depends on, see `_local_derivatives`."""
@@ -56,8 +57,8 @@ class Problem:
         (ne,) position of the entries in the matrix (upper triangle).
     size
         Number of coordinates n.
-    damping_grid, damping
-        Least -Re p [1/s] at the frequencies of the grid [rad/s].
+    limits
+        Where the poles may be.
     largest, bases
         Of a block of a symmetric array: the largest entry of H of the array, that the largest error
         is compared with, and the bases (n_array, n) of the block. Else 0 and none.
@@ -71,8 +72,7 @@ class Problem:
     rows: IntArray
     columns: IntArray
     size: int
-    damping_grid: Array
-    damping: Array
+    limits: Limits
     largest: float = 0.0
     bases: tuple[Array, ...] = ()
     clock: Clock = field(default_factory=Clock)
@@ -287,7 +287,7 @@ def moved(modes: Modes, step: Array, problem: Problem) -> Modes:
     vectors = modes.vectors + parts[0].reshape(n, m).T + 1j * parts[1].reshape(n, m).T
     decay = -modes.poles.real * np.exp(np.clip(parts[2], -0.7, 0.7))
     omega = np.where(modes.real, 0.0, np.maximum(modes.poles.imag + parts[3], 1e-6))
-    poles = limited(-decay + 1j * omega, problem.damping_grid, problem.damping)
+    poles = limited(-decay + 1j * omega, problem.limits)
     return Modes(poles, vectors, modes.sign, modes.added_mass + parts[4])
 
 

@@ -55,10 +55,10 @@ def best_poles(
     `known`: poles of a fit with fewer, which with some more make one of the starts.
     """
     samples = problem.samples
-    parts = [samples.omega, samples.value, samples.weight, problem.damping_grid]
+    parts = [samples.omega, samples.value, samples.weight, problem.limits.omega]
     if known is not None:
         parts.append(known)
-    key = count, b"".join(part.tobytes() for part in parts)
+    key = count, problem.limits.fastest, b"".join(part.tobytes() for part in parts)
     if key in problem.searches:
         return problem.searches[key]
     omega = samples.omega[:-1]
@@ -81,8 +81,7 @@ def best_poles(
 
 def _iterate(poles: ComplexArray, problem: Problem, steps: int) -> tuple[float, ComplexArray]:
     """Relocate the poles `steps` times; return the best error (of the later half) and its poles."""
-    limits = problem.damping_grid, problem.damping
-    return relocated(poles, problem.samples, *limits, steps, (steps + 1) // 2)
+    return relocated(poles, problem.samples, problem.limits, steps, (steps + 1) // 2)
 
 
 def _vector_miss(poles: ComplexArray, problem: Problem, goal: Goal) -> float:

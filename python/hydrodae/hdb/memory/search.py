@@ -11,7 +11,9 @@ Minimise the number of states, subject to
     near        max( |W (Z_m - Z)| / |W H| in the band / target, the same outside / its target )
                 <= 1, W the weights |H|^-1/2; or, of the goal `uniform`, the largest error of an
                 entry in the band over the largest entry (`goal.Goal.miss`)
-    states      at most `cap`, where it is given.
+    states      at most `cap`, where it is given
+    slow        -Re p_m at most 1.2 times the last frequency: a faster pole bounds the steps of
+                explicit methods. Where that leaves no fit near, up to 5 times.
 
 Where no model is near enough, minimise its distance instead (`goal.Goal.distance`), and of those
 that are as good take the fewest states. The problem has many minima: the number of modes is an
@@ -25,12 +27,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from hydrodae.hdb.memory.candidate import Candidate, Search
+from hydrodae.hdb.memory.clock import SEARCH
 from hydrodae.hdb.memory.direct import direct
 from hydrodae.hdb.memory.goal import Goal, Progress
 from hydrodae.hdb.memory.hankel import realisations
 from hydrodae.hdb.memory.modes import Modes, Problem
 from hydrodae.hdb.memory.poles import rich_poles
 from hydrodae.hdb.memory.pruning import pruned, tamed
+from hydrodae.hdb.memory.vector_fitting import FASTEST, SEEN
 
 NOISE = 2.0
 """Errors over the target that no number of common poles gets below: the tables are noisy."""
@@ -57,9 +61,13 @@ def fit_problem(
         Called with one line per stage.
     """
     search = Search(problem, goal, cap, many, say)
-    for method, modes in _candidates(search):
-        search.judge(modes, method)
-        if problem.clock.over():
+    for fastest in (SEEN, FASTEST):
+        search.hold_poles(fastest)
+        for method, modes in _candidates(search):
+            search.judge(modes, method)
+            if problem.clock.over():
+                break
+        if search.done or not search.held or problem.clock.over(SEARCH):
             break
     return search.best()
 

@@ -17,6 +17,7 @@ IEEE Trans. Power Delivery 14 (1999) 1052; relaxed form: B. Gustavsen, IEEE Tran
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -42,6 +43,28 @@ class Samples:
     omega: Array
     value: ComplexArray
     weight: Array
+
+
+SEEN, FASTEST = 1.2, 5.0
+"""Decay rates over the last frequency of the data: up to the first, poles are seen in the data; up
+to the second, they may stand for a trend beyond it."""
+
+
+class Limits(NamedTuple):
+    """Where poles may be.
+
+    Attributes
+    ----------
+    omega, damping
+        (nw,) Least -Re p [1/s] at frequencies [rad/s]: it keeps peaks from growing between the
+        samples.
+    fastest
+        Largest -Re p over the last of the frequencies; Im p is at most 1.2 times that.
+    """
+
+    omega: Array
+    damping: Array
+    fastest: float = SEEN
 
 
 def is_real(poles: ComplexArray) -> npt.NDArray[np.bool_]:
@@ -91,9 +114,7 @@ def starting_poles(
     return np.concatenate([single + 0j, -ratio * omega + 1j * omega])
 
 
-def relocate(
-    poles: ComplexArray, data: Samples, grid: Array, damping: Array
-) -> tuple[ComplexArray, float]:
+def relocate(poles: ComplexArray, data: Samples, limits: Limits) -> tuple[ComplexArray, float]:
     """One step of relaxed vector fitting: move the poles to the zeros of the auxiliary function.
 
     Parameters
@@ -102,8 +123,8 @@ def relocate(
         Current poles (Im >= 0).
     data
         Samples; all entries share the poles.
-    grid, damping
-        Limits of the poles, see `limited`.
+    limits
+        Of the poles.
 
     Returns
     -------
@@ -127,12 +148,12 @@ def relocate(
     constant = solution[-1]
     if abs(constant) < 1e-8:
         constant = np.copysign(1e-8, constant if constant else 1.0)
-    moved = limited(_half(_zeros(poles, solution[:-1], constant)), grid, damping)
+    moved = limited(_half(_zeros(poles, solution[:-1], constant)), limits)
     return moved, float(np.linalg.norm(triangle[:, :, -1]))
 
 
 def relocated(
-    poles: ComplexArray, data: Samples, grid: Array, damping: Array, steps: int, first: int
+    poles: ComplexArray, data: Samples, limits: Limits, steps: int, first: int
 ) -> tuple[float, ComplexArray]:
     """Relocate the poles `steps` times; return the least error from step `first` on, and its poles.
 
@@ -141,7 +162,7 @@ def relocated(
     best = (np.inf, poles)
     for step in range(steps + 1):
         if step < steps:
-            moved, error = relocate(poles, data, grid, damping)
+            moved, error = relocate(poles, data, limits)
         else:
             moved, error = poles, _misfit(poles, data)
         if step > first:
@@ -193,16 +214,12 @@ def _half(zeros: ComplexArray) -> ComplexArray:
     return np.asarray(poles[np.lexsort((poles.real, poles.imag))])
 
 
-def limited(poles: ComplexArray, grid: Array, damping: Array) -> ComplexArray:
-    """Reflect poles to the left and hold them where the data determine them.
-
-    -Re p is at least `damping` (nw,) [1/s] at the frequencies `grid` (nw,) [rad/s], which keeps
-    peaks from growing between the samples, and at most 5 times the last of them; Im p is at most
-    1.2 times that.
-    """
-    last = float(grid[-1])
-    omega = np.minimum(poles.imag, 1.2 * last)
-    decay = np.clip(np.abs(poles.real), np.interp(omega, grid, damping), 5.0 * last)
+def limited(poles: ComplexArray, limits: Limits) -> ComplexArray:
+    """Reflect poles to the left and hold them within their limits."""
+    last = float(limits.omega[-1])
+    omega = np.minimum(poles.imag, SEEN * last)
+    least = np.interp(omega, limits.omega, limits.damping)
+    decay = np.clip(np.abs(poles.real), least, limits.fastest * last)
     return np.asarray(-decay + 1j * omega, dtype=complex)
 
 
