@@ -40,12 +40,13 @@ Simulation::Start Simulation::begin(const model::Scene& scene) {
   return start;
 }
 
-Simulation::Simulation(model::Scene scene) : Simulation(begin(scene), std::move(scene)) {}
+Simulation::Simulation(model::Scene scene, double looser)
+    : Simulation(begin(scene), std::move(scene), looser) {}
 
-Simulation::Simulation(Start start, model::Scene&& scene)
-    : scene_(std::move(scene)), options_(scene_.solver), system_(std::move(start.system)),
-      pattern_(std::move(start.pattern)), y_(std::move(start.y)), yp_(std::move(start.yp)),
-      notes_(system_.notes), inputs_(find_inputs(regime_)) {
+Simulation::Simulation(Start start, model::Scene&& scene, double looser)
+    : scene_(std::move(scene)), looser_(looser), options_(scene_.solver),
+      system_(std::move(start.system)), pattern_(std::move(start.pattern)), y_(std::move(start.y)),
+      yp_(std::move(start.yp)), notes_(system_.notes), inputs_(find_inputs(regime_)) {
   forcing_ = std::make_unique<system::Forcing>(regime_, options_.end_time, scene_.output.step);
   scale_ = std::make_unique<system::MotionScale>(regime_, pattern_, y_, yp_, forcing_->motion(),
                                                  scene_.sea.ramp, options_.rtol);

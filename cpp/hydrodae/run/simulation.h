@@ -41,7 +41,9 @@ namespace hydrodae::run {
 class Simulation {
 public:
   /// At the start of the run. Throws ModelError or SolverError when the scene cannot start.
-  explicit Simulation(model::Scene scene);
+  /// @param looser tolerance over that of the run which this one is to judge: steps that waves
+  ///   bound are as much longer as those that the tolerance bounds
+  explicit Simulation(model::Scene scene, double looser = 1.0);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
@@ -127,7 +129,7 @@ private:
     VectorX y, yp;
   };
   static Start begin(const model::Scene& scene);
-  Simulation(Start start, model::Scene&& scene);
+  Simulation(Start start, model::Scene&& scene, double looser);
   void formulate();
   void begin_history();
   void make_channels();
@@ -167,6 +169,7 @@ private:
   void set(const State& state);
 
   model::Scene scene_;
+  const double looser_;
   model::SolverOptions options_; ///< of the method at work; steps as a history carries them
   MethodChoice methods_{options_.method};
   bool approaches_events_ = false; ///< with steps that end there

@@ -106,7 +106,9 @@ std::optional<double> Simulation::locate() {
 
 /// No step may pass over what is known ahead of time, nor over an event that was found.
 double Simulation::find_bound() {
-  const system::Forcing::Limit limit = forcing_->limit(measure_->turns(), integrator_->gap());
+  const double stretch = std::pow(looser_, 1.0 / (integrator_->statistics().last_order + 1.0));
+  const system::Forcing::Limit limit =
+      forcing_->limit(measure_->turns(), integrator_->gap(), stretch);
   if (event_near_ - t_ <= step_edge * (t_ - last_start_)) // no sliver of a step
     event_near_ = INFINITY;
   const double step = scene_.solver.step;

@@ -135,7 +135,8 @@ SecondRunPlan plan_second_run(model::Scene& scene, const std::string& method) {
     plan.how = "a second run with steps of " + number_text(o.step) + " s";
   } else {
     const bool tighter = looser * o.rtol > largest_rtol;
-    o.rtol *= tighter ? 1.0 / looser : looser;
+    plan.looser = tighter ? 1.0 / looser : looser;
+    o.rtol *= plan.looser;
     plan.ratio = tighter ? 1.0 : looser;
     plan.how = "a second run at rtol = " + number_text(o.rtol);
   }
@@ -161,7 +162,7 @@ SecondRun::~SecondRun() { give_up(); }
 
 void SecondRun::march(const std::function<bool()>& ask) {
   try {
-    run::Simulation simulation(plan_.scene);
+    run::Simulation simulation(plan_.scene, plan_.looser);
     accuracy::Movers movers(simulation.regime());
     VectorX y, places;
     const double end = plan_.scene.solver.end_time, dt = plan_.scene.output.step;

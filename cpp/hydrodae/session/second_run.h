@@ -16,6 +16,7 @@ namespace hydrodae::session {
 struct SecondRunPlan {
   model::Scene scene;
   double ratio = 1.0;      ///< of the tolerances or steps; 1: the second run is the more exact one
+  double looser = 1.0;     ///< of the tolerances, whichever run is the more exact one
   std::string how;         ///< "a second run at rtol = 1e-05"
   std::string missing;     ///< why there can be none; empty: there can be
   bool afterwards = false; ///< not beside the first: it calls Python, or repeats recorded answers
@@ -23,7 +24,8 @@ struct SecondRunPlan {
 
 /// Changes `scene` so that the answers of controllers outside the kernel are recorded, and returns
 /// the plan of the second run. It has 10 rtol, or twice the fixed step; where that is beyond the
-/// largest tolerance, a tenth of it.
+/// largest tolerance, a tenth of it. Steps that waves
+/// bound change as those that the tolerance bounds: else both runs would make the same error.
 /// @param method of the second run at the tolerance of the first; empty: the method of the first
 SecondRunPlan plan_second_run(model::Scene& scene, const std::string& method);
 

@@ -209,10 +209,10 @@ void Forcing::add_elements(const Regime& s, double end, double output_step) {
   }
 }
 
-Forcing::Limit Forcing::limit(const Turns& turns, double gap) {
+Forcing::Limit Forcing::limit(const Turns& turns, double gap, double stretch) {
   const double t = turns.time,
                of_wave = std::clamp(1.0 / (points_of_wave * gap), least_of_wave, most_of_wave);
-  Limit out{t + of_wave * shortest_wave_, &waves_};
+  Limit out{t + stretch * of_wave * shortest_wave_, &waves_};
   const auto take = [&](double time, const std::string& name) {
     if (time < out.time)
       out = {time, &name};

@@ -25,7 +25,8 @@ public:
 
   /// @param turns of the state from which the step starts: where bodies are on their paths
   /// @param gap largest part of the step between two times at which it asks for the loads
-  Limit limit(const Turns& turns, double gap);
+  /// @param stretch of what waves allow, 1 for most runs
+  Limit limit(const Turns& turns, double gap, double stretch);
 
   /// By group: how far its bodies will about be moved, in units of their lever [-]; 0: not at all.
   const VectorX& motion() const { return motion_; }
