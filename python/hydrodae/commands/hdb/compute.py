@@ -21,9 +21,9 @@ from hydrodae.hdb.bem.cutting import immersed
 from hydrodae.hdb.bem.revolution import read_profile, revolution
 from hydrodae.hdb.database.coordinates import body_name, check_body
 from hydrodae.hdb.hull.meshes import mirrored, read_mesh
-from hydrodae.hdb.preparation.computing import hydrostatics_of
-from hydrodae.hdb.preparation.importing import import_database
+from hydrodae.hdb.preparation import computing, pipeline
 from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.support.progress import StageLine
 
 Array = NDArray[np.float64]
 
@@ -226,7 +226,7 @@ def _compute_one(
 ) -> int:
     """Compute the database of one pose and write it; the exit code."""
     bodies = [_body(text, points, args.panel, settings, pose) for text in args.body]
-    statics = hydrostatics_of(bodies)
+    statics = computing.hydrostatics_of(bodies)
     for body in bodies:
         volume = statics[body.name].displaced_volume
         print(f"{body.name}: {len(body.panels)} panels, displaces {volume:.5g} m3")
@@ -236,13 +236,14 @@ def _compute_one(
     work = Path(args.work or f"{args.output}.bem")
     if output != args.output:
         work = work / Path(output).stem
-    progress = None if args.quiet else _Progress()
-    netcdf = bem.compute(bodies, settings, work, progress=progress)
-    nan = bem.count_nan(netcdf)
-    if nan:
-        print(f"warning: NaN in the results of Capytaine: {nan}")
-    database, report = import_database(netcdf, hydrostatics=statics)
-    database = database.with_meshes({body.name: body.panels for body in bodies})
+    with StageLine("compute", pipeline.names(pipeline.COMPUTE)) as stage:
+        database, report = computing.compute(
+            bodies,
+            settings,
+            work,
+            progress=None if args.quiet else _Progress(),
+            stage=None if args.quiet else stage,
+        )
     print(database.summary())
     print(report)
     if args.no_lid and report.find("irregular frequencies"):

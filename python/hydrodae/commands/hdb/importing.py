@@ -19,9 +19,11 @@ from hydrodae.errors import CaseError
 from hydrodae.hdb.checks.band import Band
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.memory.verdict import CHECKS
+from hydrodae.hdb.preparation import pipeline
 from hydrodae.hdb.preparation.importing import import_database
 from hydrodae.hdb.readers.formats import expected_files
 from hydrodae.study.band import working_band
+from hydrodae.support.progress import StageLine
 
 DONE, BAD_DATA = 0, 2
 
@@ -157,21 +159,23 @@ def _volume(text: str) -> tuple[str, float]:
 def run(args: argparse.Namespace) -> int:
     """Import a source; returns 2 if a check found an error and nothing was written, else 0."""
     names = None if args.bodies is None else [n.strip() for n in args.bodies.split(",")]
-    database, report = import_database(
-        args.source,
-        names=names,
-        reference_points=dict(parse_point("--cog", text, alone=True) for text in args.cog),
-        source_points=dict(parse_point("--origin", text, alone=True) for text in args.origin),
-        meshes=dict(parse_file("--mesh", text, alone=True) for text in args.mesh),
-        stiffness=dict(parse_file("--stiffness", text, alone=True) for text in args.stiffness),
-        volumes=dict(_volume(text) for text in args.volume),
-        **water_of(args),
-        time_convention=args.time_convention,
-        keep=args.keep,
-        cut=args.cut,
-        symmetric=None if args.symmetric is None else args.symmetric.split(","),
-        band=_band(args),
-    )
+    with StageLine("import", pipeline.names(pipeline.IMPORT)) as progress:
+        database, report = import_database(
+            args.source,
+            names=names,
+            reference_points=dict(parse_point("--cog", text, alone=True) for text in args.cog),
+            source_points=dict(parse_point("--origin", text, alone=True) for text in args.origin),
+            meshes=dict(parse_file("--mesh", text, alone=True) for text in args.mesh),
+            stiffness=dict(parse_file("--stiffness", text, alone=True) for text in args.stiffness),
+            volumes=dict(_volume(text) for text in args.volume),
+            **water_of(args),
+            time_convention=args.time_convention,
+            keep=args.keep,
+            cut=args.cut,
+            symmetric=None if args.symmetric is None else args.symmetric.split(","),
+            band=_band(args),
+            progress=progress,
+        )
     if args.no_coupling:
         database = database.without_coupling()
     print(database.summary())

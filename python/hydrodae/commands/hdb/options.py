@@ -12,6 +12,7 @@ from hydrodae.hdb.database.radiation_kernel import LIMIT
 from hydrodae.hdb.database.summary import fit_summary, kernel_summary
 from hydrodae.hdb.memory.verdict import CHECKS
 from hydrodae.hdb.preparation import fitting as prepare
+from hydrodae.hdb.preparation import pipeline
 from hydrodae.study.band import working_band
 from hydrodae.support.progress import StageLine
 
@@ -128,11 +129,12 @@ def with_fits(database: HydroDatabase, specs: list[str], args: argparse.Namespac
         print(f"band {band[0]:.3g} to {band[1]:.3g} rad/s, from {args.case}")
     if args.target is not None and not args.target > 0.0:
         raise CaseError(f"--target {args.target:g}: expected a number > 0")
+    stages = pipeline.names(pipeline.FIT)
     for spec in specs:
         name, equals, text = spec.partition("=")
         if not equals or not prepare.is_fit_name(name):
             raise CaseError(f"fit {spec!r}: expected NAME=SPEC, e.g. flaps=flap1.pitch,flap2.pitch")
-        with StageLine(f"fit {name}") as progress:
+        with StageLine(f"fit {name}", stages) as progress:
             database = prepare.fit(
                 database,
                 text,
