@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from tests.property.moves import Move
 
 from hydrodae import hdb
-from hydrodae.hdb.database.coordinates import DOFS
+from hydrodae.hdb.labels import DOFS
 from hydrodae.hdb.memory import ExponentialMemory
 from hydrodae.hdb.relations.dispersion import wavenumber
 

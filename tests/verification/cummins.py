@@ -26,12 +26,11 @@ import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import CubicSpline, PPoly
 
+from hydrodae.hdb.labels import DOFS
 from hydrodae.linear import LinearModel
 
 Array = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
-
-DOFS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 
 
 class RadiationData(Protocol):

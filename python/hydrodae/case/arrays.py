@@ -344,7 +344,7 @@ def limit(
         _check_names(units or {})
         owner = np.array([_unit_of(name, list(units or {})) for name in names])
         near = owner[:, None] == owner
-    bodies = [names.index(label.rpartition(".")[0]) for label in database.coordinates]
+    bodies = [names.index(label.body) for label in database.labels]
     kept = near[np.ix_(bodies, bodies)]
     limited = replace(
         database,

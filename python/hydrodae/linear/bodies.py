@@ -10,11 +10,10 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from hydrodae.case.bodies import bodies_and_attachments
+from hydrodae.hdb.labels import DOFS
 
 Array = NDArray[np.float64]
 Table = Mapping[str, Any]
-
-DOFS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 
 
 class AtRest(Protocol):

@@ -27,10 +27,10 @@ from hydrodae.hdb.checks.sizes import size_findings
 from hydrodae.hdb.checks.spikes import spike_findings
 from hydrodae.hdb.checks.units import unit_findings
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.database.coordinates import rigid
 from hydrodae.hdb.database.findings import CheckReport, Finding
 from hydrodae.hdb.database.kernels import diagonal_kernels, envelope_length, resolved_time
 from hydrodae.hdb.database.scales import scaled_damping_eigenvalues, scales
+from hydrodae.hdb.labels import rigid
 from hydrodae.hdb.relations import irf, tails
 
 
@@ -50,7 +50,7 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
         Of the rigid coordinates, in the order grid, headings, memory, symmetry, energy, irregular
         frequencies, garbled rows, sizes, places, causality, spikes, fits, long waves, hulls.
     """
-    modes = len(database.coordinates) - len(rigid(database.coordinates))
+    modes = sum(label.is_mode for label in database.labels)
     if modes:
         database = database.select(rigid(database.coordinates))
     judged = band or felt_band(database)

@@ -10,9 +10,9 @@ from scipy.interpolate import CubicSpline
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.database.coordinates import split_label
 from hydrodae.hdb.database.kernels import diagonal_kernels
 from hydrodae.hdb.database.scales import scales
+from hydrodae.hdb.labels import bodies_of
 from hydrodae.hdb.relations import infinity, irf
 
 Array = NDArray[np.float64]
@@ -69,7 +69,7 @@ def compare(a: HydroDatabase, b: HydroDatabase) -> list[Difference]:
             f"no coordinates in common: {', '.join(a.coordinates[:4])} ... and "
             f"{', '.join(b.coordinates[:4])} ... (rename bodies with hdb import --bodies)"
         )
-    for body in {split_label(c)[0] for c in labels}:
+    for body in bodies_of(labels):
         p, q = a.bodies[body].reference_point, b.bodies[body].reference_point
         if p is not None and q is not None and not np.allclose(p, q, atol=1e-3):
             raise DatabaseError(f"the moments of {body!r} are about {p} and {q}: move one (--cog)")

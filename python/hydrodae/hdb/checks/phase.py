@@ -11,7 +11,7 @@ from hydrodae.hdb.relations.dispersion import wavenumber
 
 def without_phase(database: HydroDatabase) -> NDArray[np.complex128]:
     """F e^{i k.x}, (nw, nh, n) [N/m, N m/m], x where each body floats (the origin if unknown)."""
-    points = np.array([_place(database, c.rpartition(".")[0]) for c in database.coordinates])
+    points = np.array([_place(database, label.body) for label in database.labels])
     heading = database.heading
     along = np.outer(np.cos(heading), points[:, 0]) + np.outer(np.sin(heading), points[:, 1])
     k = wavenumber(database.omega, database.water_depth, database.gravity)[:, None, None]

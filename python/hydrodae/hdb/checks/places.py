@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 from scipy.special import j1
 
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.database.coordinates import split_label
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.relations.dispersion import wavenumber
 
@@ -110,9 +109,7 @@ def _width(db: HydroDatabase, *names: str) -> float:
     """Cube root of the largest added volume of some bodies [m]."""
     own = np.abs(np.diag(db.added_mass_inf)) / db.rho
     sizes = [
-        own[i]
-        for i, label in enumerate(db.coordinates)
-        if split_label(label)[0] in names and split_label(label)[1] < 3
+        own[i] for i, label in enumerate(db.labels) if label.body in names and label.is_translation
     ]
     return float(np.cbrt(max(sizes, default=0.0)))
 

@@ -157,7 +157,7 @@ def _interpolated(
 
 def _along(db: HydroDatabase) -> Array:
     """Distance (nh, n) of the reference points along each heading [m]; 0 where unknown."""
-    points = [db.bodies[c.rpartition(".")[0]].reference_point for c in db.coordinates]
+    points = [db.bodies[label.body].reference_point for label in db.labels]
     places = np.array([np.zeros(3) if p is None else p for p in points])
     return np.asarray(
         np.outer(np.cos(db.heading), places[:, 0]) + np.outer(np.sin(db.heading), places[:, 1])

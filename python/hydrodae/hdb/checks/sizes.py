@@ -23,7 +23,6 @@ from numpy.typing import NDArray
 from hydrodae.hdb.checks.ground import standing
 from hydrodae.hdb.checks.one_heading import clean_rows, in_a_tank
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.database.coordinates import split_label
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.relations.dispersion import group_velocity, wavenumber
@@ -78,8 +77,8 @@ def _width(db: HydroDatabase) -> float:
 
 def _together(db: HydroDatabase, names: Sequence[str], dof: int) -> NDArray[np.intp]:
     """Return the indices of one motion of some bodies; none unless all have it."""
-    split = [split_label(label) for label in db.coordinates]
-    at = [i for i, (name, own) in enumerate(split) if name in names and own == dof]
+    labels = enumerate(db.labels)
+    at = [i for i, label in labels if label.body in names and label.dof == dof]
     return np.array(at if len(at) == len(names) else [], dtype=np.intp)
 
 
@@ -146,7 +145,7 @@ def _of_hulls(db: HydroDatabase) -> list[Finding]:
 
 def _impossible(db: HydroDatabase, name: str, statics: Hydrostatics) -> str:
     """Report what does not go together, or nothing."""
-    at = {dof: i for i, c in enumerate(db.coordinates) for b, dof in [split_label(c)] if b == name}
+    at = {label.dof: i for i, label in enumerate(db.labels) if label.body == name}
     volume, area = statics.displaced_volume, statics.waterplane_area
     height = abs(float(statics.center_of_buoyancy[2]))
     if area * height > 0.0 and 0.0 < volume < LEAST_VOLUME * area * height:

@@ -18,6 +18,7 @@ from hydrodae.hdb.database.radiation_kernel import LIMIT, make_kernel
 from hydrodae.hdb.database.summary import summary
 from hydrodae.hdb.database.tables import Body, Tables
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+from hydrodae.hdb.labels import bodies_of, modes_of, read_labels
 
 if TYPE_CHECKING:
     from hydrodae.hdb.memory import ExponentialMemory
@@ -56,7 +57,7 @@ class HydroDatabase(Tables):
         """
         i = self.index(labels)
         square = np.ix_(i, i)
-        keep = co.bodies_of(labels)
+        keep = bodies_of(labels)
         return replace(
             self,
             coordinates=tuple(labels),
@@ -104,7 +105,7 @@ class HydroDatabase(Tables):
             raise DatabaseError(f"two bodies would get the same name: {list(new.values())}")
 
         def rename(labels: Sequence[str]) -> tuple[str, ...]:
-            return tuple(f"{new[c.rpartition('.')[0]]}.{c.rpartition('.')[2]}" for c in labels)
+            return tuple(f"{new[c.body]}.{c.motion}" for c in read_labels(labels))
 
         return replace(
             self,
@@ -174,7 +175,7 @@ class HydroDatabase(Tables):
         Fits and a stored kernel, which hold the coupling, are dropped; the excitation keeps the
         waves that the other bodies scatter.
         """
-        body = np.array([label.rpartition(".")[0] for label in self.coordinates])
+        body = np.array([label.body for label in self.labels])
         own = body[:, None] == body
         return replace(
             self,
@@ -219,10 +220,10 @@ class HydroDatabase(Tables):
 
 def _selected_modes(database: Tables, name: str, labels: Sequence[str]) -> Array | None:
     """Hydrostatics over the six and the modes among the labels."""
-    stiffness, kept = database.bodies[name].mode_stiffness, co.modes_of(name, labels)
+    stiffness, kept = database.bodies[name].mode_stiffness, modes_of(name, labels)
     if stiffness is None or not kept:
         return None
-    modes = co.modes_of(name, database.coordinates)
+    modes = modes_of(name, database.coordinates)
     rows = [*range(6), *(6 + modes.index(mode) for mode in kept)]
     return np.asarray(stiffness[np.ix_(rows, rows)])
 

@@ -15,9 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.database.coordinates import DOFS, unique_names
+from hydrodae.hdb.database.coordinates import unique_names
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+from hydrodae.hdb.labels import six_of_each
 from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
 from hydrodae.support.damaged import opened
 
@@ -93,7 +94,7 @@ def _read(path: Path, f: h5py.File) -> SourceData:
     factor = 1.0 if scaled else rho
     code = _text(f["bem_data/code"][()]) if "bem_data/code" in f else "not stated"
     data = SourceData(
-        coordinates=tuple(f"{name}.{dof}" for name in names for dof in DOFS),
+        coordinates=six_of_each(names),
         omega=omega,
         added_mass=factor * np.concatenate(a).transpose(2, 0, 1)[order],
         radiation_damping=np.concatenate(b).transpose(2, 0, 1)[order],

@@ -14,10 +14,11 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.database.coordinates import DOFS, unique_names
+from hydrodae.hdb.database.coordinates import unique_names
 from hydrodae.hdb.database.extra import kept_tables
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.shallow import shallow_findings
+from hydrodae.hdb.labels import DOFS
 from hydrodae.hdb.readers.capytaine_statics import attach_bodies, text
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.relations.dispersion import frequency

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.database.coordinates import DOFS
+from hydrodae.hdb.labels import DOFS
 from hydrodae.hdb.readers.text import number, read_lines, words
 
 #: No run has more frequencies, headings or bodies than this.

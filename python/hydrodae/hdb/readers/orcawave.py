@@ -15,9 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.database.coordinates import DOFS, unique_names
+from hydrodae.hdb.database.coordinates import unique_names
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+from hydrodae.hdb.labels import six_of_each
 from hydrodae.hdb.readers.foreign import CONVERTER
 from hydrodae.hdb.readers.formats import Format
 from hydrodae.hdb.readers.orcawave_units import Units, units_of, water_of
@@ -116,7 +117,7 @@ def read_orcawave(path: Path) -> SourceData:
         text = "vessel types hold no coupling between bodies: each is taken to radiate alone"
         findings.append(Finding("warning", "coordinates", text))
     data = SourceData(
-        coordinates=tuple(f"{name}.{dof}" for name in names for dof in DOFS),
+        coordinates=six_of_each(names),
         omega=omega,
         added_mass=a,
         radiation_damping=b,

@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.database.coordinates import bodies_of
 from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.labels import bodies_of
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.hdb.relations.noise import scatter

@@ -13,15 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.database.coordinates import (
-    DOFS,
-    bodies_of,
-    is_rotation,
-    rigid,
-    unique_names,
-)
+from hydrodae.hdb.database.coordinates import unique_names
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+from hydrodae.hdb.labels import DOFS, bodies_of, read_labels, rigid
 from hydrodae.hdb.readers import wamit_tables as tables
 from hydrodae.hdb.readers.formats import Format
 from hydrodae.hdb.readers.mesh_beside import statics_of_file
@@ -133,7 +128,7 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
         for table in (a, b):
             table.transpose(0, 2, 1)[:, alone] = table[:, alone]
     omega = at[finite]
-    rotation = np.array([is_rotation(label) for label in coordinates])
+    rotation = np.array([label.is_rotation for label in read_labels(coordinates)])
     scale = rho * length ** (3.0 + rotation[:, None] + rotation)
     forces: dict[str, Complex | None] = {}
     heading = np.zeros(0)

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.database.coordinates import DOFS
 from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.labels import DOFS
 from hydrodae.hdb.readers.text import NUMBER, number
 from hydrodae.hdb.readers.wamit_tables import to_omega
 from hydrodae.hdb.relations.dispersion import frequency
