@@ -9,7 +9,8 @@ import numpy as np
 from hydrodae.case import Case
 from hydrodae.case.case import parse_assignment
 from hydrodae.commands.arguments import heading_deg
-from hydrodae.commands.machine import add_json, of_rao, print_json
+from hydrodae.commands.machine import of_rao, print_json
+from hydrodae.commands.options import add_case, add_json
 from hydrodae.errors import CaseError
 from hydrodae.linear import LinearModel, without_memory
 from hydrodae.pictures.plot import save
@@ -18,9 +19,7 @@ from hydrodae.study.rao import output, rao, text
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `hydrodae rao`."""
-    parser.add_argument("case", metavar="CASE", help="case file (TOML)")
-    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
-    parser.add_argument("--library", metavar="FILE", action="append", default=[], help="as in run")
+    add_case(parser)
     parser.add_argument(
         "--periods",
         metavar="T1,T2,...",

@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from hydrodae.commands.arguments import parse_headings, parse_numbers, parse_point
+from hydrodae.commands.hdb.options import BAD_DATA, DONE, add_grid_options, omega_of, refused, write
+from hydrodae.commands.options import add_quiet
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.bem import run as bem
 from hydrodae.hdb.bem import shapes
@@ -27,7 +29,6 @@ from hydrodae.support.progress import StageLine
 
 Array = NDArray[np.float64]
 
-DONE, BAD_DATA = 0, 2
 #: Wall time between two lines of progress [s].
 INTERVAL = 5.0
 
@@ -61,15 +62,8 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         default=[],
         help="reference point of every body, its centre of gravity at rest [m]",
     )
-    compute.add_argument(
-        "--omega", metavar="LO,HI,N", required=True, help="frequencies [rad/s]; infinity is added"
-    )
-    compute.add_argument(
-        "--heading-deg", metavar="A,B,...", default="0", help="directions of travel (default: 0)"
-    )
+    add_grid_options(compute)
     compute.add_argument("--depth", metavar="H", type=float, default=np.inf, help="default: inf")
-    compute.add_argument("--rho", metavar="R", type=float, default=1025.0, help="default: 1025")
-    compute.add_argument("--gravity", metavar="G", type=float, default=9.81, help="default: 9.81")
     compute.add_argument(
         "--panel",
         metavar="SIZE",
@@ -87,11 +81,10 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "roll_deg, pitch_deg, yaw_deg about --cog. Writes FILE with the number of the pose in its "
         "name for each, and prints the table",
     )
-    compute.add_argument("-o", "--output", metavar="FILE", default="hydro.h5")
     compute.add_argument(
         "--work", metavar="FOLDER", help="where finished frequencies are kept (default: FILE.bem)"
     )
-    compute.add_argument("-q", "--quiet", action="store_true", help="no progress")
+    add_quiet(compute)
     compute.add_argument(
         "--kochin",
         metavar="N",
@@ -121,11 +114,8 @@ def run(args: argparse.Namespace) -> int:
     HydrodaeError
         Bad arguments or meshes, or Capytaine is missing.
     """
-    low, high, count = parse_numbers("--omega", args.omega, 3)
-    if not (0.0 < low < high and count >= 4 and count == int(count)):
-        raise CaseError(f"--omega {args.omega!r}: expected LO,HI,N with 0 < LO < HI and N >= 4")
     settings = bem.Settings(
-        omega=np.linspace(low, high, int(count)),
+        omega=omega_of(args),
         heading=parse_headings("--heading-deg", args.heading_deg),
         rho=args.rho,
         gravity=args.gravity,
@@ -251,13 +241,9 @@ def _compute_one(
             "computed with --no-lid: a lid, the default, removes irregular frequencies (not the "
             "resonance of a moonpool, which asks for finer steps)"
         )
-    if left := report.left(args.accept):
-        words = " ".join(dict.fromkeys(f"--accept {finding.name}" for finding in left))
-        print(f"{output} not written: a check found an error ({words} writes it anyway)")
+    if refused(report.left(args.accept), output):
         return BAD_DATA
-    database.write(output)
-    print(f"written: {output} ({Path(output).stat().st_size / 1e6:.2f} MB)")
-    return DONE
+    return write(database, output)
 
 
 def _name_of(text: str) -> str:

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
-from pathlib import Path
 
 from hydrodae.commands.arguments import parse_band, parse_file, parse_point
 from hydrodae.commands.hdb.options import (
+    BAD_DATA,
     add_fit_options,
     add_length_option,
     add_water_options,
+    refused,
     water_of,
     with_fits,
     with_kernel,
+    write,
 )
 from hydrodae.errors import CaseError
 from hydrodae.hdb.checks.band import Band
@@ -24,8 +26,6 @@ from hydrodae.hdb.preparation.importing import import_database
 from hydrodae.hdb.readers.formats import expected_files
 from hydrodae.study.band import working_band
 from hydrodae.support.progress import StageLine
-
-DONE, BAD_DATA = 0, 2
 
 
 def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -180,14 +180,9 @@ def run(args: argparse.Namespace) -> int:
         database = database.without_coupling()
     print(database.summary())
     print(report)
-    left = report.left([name for name in args.accept if name not in CHECKS])
-    if left:
-        words = " ".join(dict.fromkeys(f"--accept {finding.name}" for finding in left))
-        print(f"{args.output} not written: a check found an error ({words} writes it anyway)")
+    if refused(report.left([name for name in args.accept if name not in CHECKS]), args.output):
         return BAD_DATA
     if args.kernel is not None:
         database = with_kernel(database, args.kernel, args)
     database = with_fits(database, args.fit, args)
-    database.write(args.output, single=args.single)
-    print(f"written: {args.output} ({Path(args.output).stat().st_size / 1e6:.2f} MB)")
-    return DONE
+    return write(database, args.output, single=args.single)

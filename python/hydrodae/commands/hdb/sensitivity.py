@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.commands.arguments import given_case, heading_deg
+from hydrodae.commands.options import add_case
 from hydrodae.errors import CaseError
 from hydrodae.study.sensitivity import sensitivity
 from hydrodae.study.sensitivity.output import table, write
@@ -24,10 +25,8 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "variants of its database. They have a coarser or shorter table, a shorter or fitted "
         "memory, or bodies without coupling.",
     )
-    parser.add_argument("case", metavar="CASE", help="case file (TOML)")
+    add_case(parser)
     parser.add_argument("--result", choices=("period", "rao", "power"), required=True)
-    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
-    parser.add_argument("--library", metavar="FILE", action="append", default=[], help="as in run")
     parser.add_argument("--periods", metavar="T1,T2,...", help="of --result rao [s]")
     parser.add_argument(
         "--channel",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -143,14 +143,7 @@ def grid_sensitivity(database: HydroDatabase) -> list[tuple[str, float, float]]:
         if keep.sum() < 8:
             rows.append((text, np.nan, np.nan))
             continue
-        part = replace(
-            database,
-            omega=w[keep],
-            added_mass=database.added_mass[keep],
-            radiation_damping=database.radiation_damping[keep],
-            froude_krylov=database.froude_krylov[keep],
-            diffraction=database.diffraction[keep],
-        )
+        part = database.at_frequencies(keep)
         b = part.radiation_damping[:, used, used]
         other = irf.radiation_kernel(part.omega, b, time, extrapolate=True)
         change = float((np.abs(other - kernel).max(axis=0) / peak).max())

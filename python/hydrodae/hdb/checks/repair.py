@@ -117,7 +117,7 @@ def irregular(db: HydroDatabase, share: float = MOST_REPLACED) -> tuple[HydroDat
     good = np.flatnonzero(~mask)
     inside = np.zeros_like(mask)
     inside[good[0] : good[-1] + 1] = mask[good[0] : good[-1] + 1]
-    made = _rows(_interpolated(db, ~mask, inside), ~mask | inside)
+    made = _interpolated(db, ~mask, inside).at_frequencies(~mask | inside)
     text = f"interpolated {inside.sum()} of {mask.size} frequencies ({inside.mean():.1%})"
     if ends := int((mask & ~inside).sum()):
         text += f", left out {ends} at the ends"
@@ -220,17 +220,6 @@ def tail(db: HydroDatabase) -> tuple[HydroDatabase, str]:
     return extended, (
         f"appended {count} frequencies {more[0]:.4g}..{more[-1]:.4g} rad/s with B ~ w^-n, "
         f"n = {powers}; A by Ogilvie's relation; |F| ~ w^-(n+3)/2"
-    )
-
-
-def _rows(db: HydroDatabase, keep: NDArray[np.bool_]) -> HydroDatabase:
-    return replace(
-        db,
-        omega=db.omega[keep],
-        added_mass=db.added_mass[keep],
-        radiation_damping=db.radiation_damping[keep],
-        froude_krylov=db.froude_krylov[keep],
-        diffraction=db.diffraction[keep],
     )
 
 

@@ -169,21 +169,39 @@ class HydroDatabase(Tables):
             memory={key: _moved_fit(key, fit, shifts) for key, fit in self.memory.items()},
         )
 
-    def without_coupling(self) -> Self:
+    def at_frequencies(self, kept: NDArray[np.bool_]) -> Self:
+        """Return a copy with the tables at some of the frequencies, `kept` (nw,)."""
+        return replace(
+            self,
+            omega=self.omega[kept],
+            added_mass=self.added_mass[kept],
+            radiation_damping=self.radiation_damping[kept],
+            froude_krylov=self.froude_krylov[kept],
+            diffraction=self.diffraction[kept],
+        )
+
+    def without_coupling(self, near: NDArray[np.bool_] | None = None) -> Self:
         """Return a copy whose bodies radiate each for itself: blocks between bodies are zero.
 
         Fits and a stored kernel, which hold the coupling, are dropped; the excitation keeps the
         waves that the other bodies scatter.
+
+        Parameters
+        ----------
+        near : (nb, nb) array of bool, optional
+            Pairs of `bodies` whose blocks are kept; default: none but each with itself.
         """
-        body = np.array([label.body for label in self.labels])
-        own = body[:, None] == body
+        names = list(self.bodies)
+        body = [names.index(label.body) for label in self.labels]
+        own = (np.eye(len(names), dtype=bool) if near is None else near)[np.ix_(body, body)]
+        which = "between bodies" if near is None else "of far bodies"
         return replace(
             self,
             added_mass=self.added_mass * own,
             radiation_damping=self.radiation_damping * own,
             added_mass_inf=self.added_mass_inf * own,
             added_mass_inf_std=self.added_mass_inf_std * own,
-            repairs=(*self.repairs, "coupling: blocks of A and B between bodies set to zero"),
+            repairs=(*self.repairs, f"coupling: blocks of A and B {which} set to zero"),
             kernel=None,
             memory={},
         )

@@ -115,11 +115,4 @@ def _fourier(time: Array, values: Array, omega: Array) -> NDArray[np.complex128]
 def _kept(database: HydroDatabase, keep: NDArray[np.bool_]) -> HydroDatabase:
     if keep.sum() < 4:
         raise DatabaseError("fewer than 4 frequencies would be left")
-    return replace(
-        database,
-        omega=database.omega[keep],
-        added_mass=database.added_mass[keep],
-        radiation_damping=database.radiation_damping[keep],
-        froude_krylov=database.froude_krylov[keep],
-        diffraction=database.diffraction[keep],
-    )
+    return database.at_frequencies(keep)
