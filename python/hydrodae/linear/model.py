@@ -119,10 +119,6 @@ class LinearModel:
         """Return the same linearised case, in the same pose, without some forces along joints.
 
         Their springs, dampers and states are gone; what they hold the device with at rest stays.
-
-        Parameters
-        ----------
-        names : sequence of str
         """
         m = self._model
         states = [k for k, owner in enumerate(m["state_of"]) if owner in names]

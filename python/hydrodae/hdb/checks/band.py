@@ -35,10 +35,6 @@ LEAST_DAMPING = 0.02
 def felt_band(database: HydroDatabase) -> Band:
     """Return the lowest frequency and the highest one that the device feels [rad/s].
 
-    Parameters
-    ----------
-    database : HydroDatabase
-
     Returns
     -------
     low, high : float

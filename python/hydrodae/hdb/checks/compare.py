@@ -109,10 +109,6 @@ def other_water(a: HydroDatabase, b: HydroDatabase) -> list[str]:
 def grid_sensitivity(database: HydroDatabase) -> list[tuple[str, float, float]]:
     """How K(t) and added_mass_inf answer to a coarser, narrower or shorter database.
 
-    Parameters
-    ----------
-    database : HydroDatabase
-
     Returns
     -------
     list of (str, float, float)

@@ -25,10 +25,6 @@ SUBMERGED = 1e-3
 def standing(database: HydroDatabase) -> list[str]:
     """Return the bodies whose hull reaches the ground.
 
-    Parameters
-    ----------
-    database : HydroDatabase
-
     Returns
     -------
     list of str

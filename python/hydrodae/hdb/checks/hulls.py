@@ -25,10 +25,6 @@ DEEP = 20.0
 def hull_findings(database: HydroDatabase) -> list[Finding]:
     """Judge the hydrostatics of each body by themselves and by its mesh.
 
-    Parameters
-    ----------
-    database : HydroDatabase
-
     Returns
     -------
     list of Finding

@@ -28,10 +28,6 @@ WINDOW = 15
 def ogilvie_residual(database: HydroDatabase) -> Array:
     """|A(w) + 1/w int K sin(wt) dt - A_inf| over the largest |A|, by coordinate.
 
-    Parameters
-    ----------
-    database : HydroDatabase
-
     Returns
     -------
     (nw, m) array
@@ -47,10 +43,6 @@ def ogilvie_residual(database: HydroDatabase) -> Array:
 
 def suspect_rows(database: HydroDatabase) -> NDArray[np.bool_]:
     """Frequencies whose A or B cannot be right: narrow spikes of the Ogilvie residual, B < 0.
-
-    Parameters
-    ----------
-    database : HydroDatabase
 
     Returns
     -------

@@ -31,10 +31,6 @@ MOST = 0.05
 def lone_rows(database: HydroDatabase) -> Array:
     """Distance of H from the cubic through its neighbours, over H, where that frequency is alone.
 
-    Parameters
-    ----------
-    database : HydroDatabase
-
     Returns
     -------
     (nw, m, m) array

@@ -50,10 +50,6 @@ WALLS = 0.06
 def one_heading_findings(database: HydroDatabase) -> list[Finding]:
     """Compare the damping of each motion with what one heading implies.
 
-    Parameters
-    ----------
-    database : HydroDatabase
-
     Returns
     -------
     list of Finding

@@ -41,10 +41,6 @@ ABOVE = 10.0
 def place_findings(database: HydroDatabase) -> list[Finding]:
     """Judge the coupling of bodies by their places, and of motions of a body by each other.
 
-    Parameters
-    ----------
-    database : HydroDatabase
-
     Returns
     -------
     list of Finding

@@ -30,10 +30,6 @@ ROUND = 0.05
 def row_findings(database: HydroDatabase) -> list[Finding]:
     """Judge the diagonals of A and B, and report what cannot be checked without forces of waves.
 
-    Parameters
-    ----------
-    database : HydroDatabase
-
     Returns
     -------
     list of Finding

@@ -51,10 +51,6 @@ UNITS = "another unit, density, or a garbled number"
 def size_findings(database: HydroDatabase) -> list[Finding]:
     """Compare sizes of A, B and F with each other and with the hydrostatics.
 
-    Parameters
-    ----------
-    database : HydroDatabase
-
     Returns
     -------
     list of Finding

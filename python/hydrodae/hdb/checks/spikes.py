@@ -33,10 +33,6 @@ ENOUGH = 8
 def spikes(database: HydroDatabase) -> Array:
     """Distance from the line through both neighbours, over the force, where that is a spike.
 
-    Parameters
-    ----------
-    database : HydroDatabase
-
     Returns
     -------
     (nw, nh, n) array

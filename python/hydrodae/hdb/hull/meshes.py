@@ -21,10 +21,6 @@ _CORNERS = {_TRIANGLE: 3, _QUAD: 4, 9: 3, 10: 4, 16: 4}
 def read_mesh(path: str | Path) -> Array:
     """Read a mesh file; its content decides the format.
 
-    Parameters
-    ----------
-    path : path
-
     Returns
     -------
     (n, 4, 3) array

@@ -56,10 +56,6 @@ def aqwa_file(path: Path) -> Path | None:
 def read_aqwa(path: Path) -> SourceData:
     """Read an `.AH1` file, or a `.LIS` listing.
 
-    Parameters
-    ----------
-    path : Path
-
     Returns
     -------
     SourceData

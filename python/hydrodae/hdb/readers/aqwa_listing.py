@@ -56,10 +56,6 @@ _STATED = {
 def read_listing(path: Path) -> SourceData:
     """Read a listing.
 
-    Parameters
-    ----------
-    path : Path
-
     Returns
     -------
     SourceData

@@ -36,10 +36,6 @@ def is_bemio_file(f: h5py.File) -> bool:
 def read_bemio(path: Path) -> SourceData:
     """Read a BEMIO file.
 
-    Parameters
-    ----------
-    path : Path
-
     Returns
     -------
     SourceData

@@ -72,10 +72,6 @@ def _has_tables(path: Path) -> bool:
 def read_orcawave(path: Path) -> SourceData:
     """Read the vessel types of an OrcaFlex data file.
 
-    Parameters
-    ----------
-    path : Path
-
     Returns
     -------
     SourceData

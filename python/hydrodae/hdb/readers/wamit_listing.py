@@ -68,10 +68,6 @@ def is_listing(path: Path) -> bool:
 def read_listing(path: Path) -> Listing:
     """Read the tables of added mass, damping and exciting forces.
 
-    Parameters
-    ----------
-    path : Path
-
     Returns
     -------
     Listing
