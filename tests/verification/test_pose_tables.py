@@ -10,10 +10,11 @@ import pytest
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
+from tests.errors import stopped, wrong
 from tests.verification import hulls
 
 import hydrodae
-from hydrodae.errors import CaseError, SolverError
+from hydrodae.errors import CaseError
 from hydrodae.hdb import HydroDatabase
 from hydrodae.linear import LinearModel
 
@@ -208,7 +209,7 @@ def test_a_finer_table_converges(tmp_path: Path) -> None:
 def test_a_pose_beyond_the_table_ends_the_run(tmp_path: Path) -> None:
     poses = np.array([-1.0, 0.0, 1.0, 3.2])
     write_tables(tmp_path, poses)
-    with pytest.raises(SolverError, match=r"covers -1 to 3\.2 alone"):
+    with stopped("range", "bodies/float"):
         hydrodae.run(write_case(tmp_path, poses))
 
 
@@ -333,5 +334,5 @@ databases = ["hydro.h5", "hydro.h5"]
 """
     path = tmp_path / "case.toml"
     path.write_text((folder / "flap_decay.toml").read_text() + table)
-    with pytest.raises(CaseError, match="couples body 'flap1' with body"):
+    with wrong("pose_table.turn.body"):
         hydrodae.run(path)
