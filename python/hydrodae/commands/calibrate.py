@@ -85,13 +85,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Fit, print the report, and write what is asked for.
-
-    Raises
-    ------
-    HydrodaeError
-        As `hydrodae.calibrate`.
-    """
+    """Fit, print the report, and write what is asked for."""
     case = given_case(arguments)
     records, free = _asked(arguments)
     for record in records:

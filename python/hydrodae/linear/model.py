@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import null_space
 
 from hydrodae import _core
-from hydrodae.case.case import CaseLike
+from hydrodae.case.case import CaseLike, read_case
 from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.database import HydroDatabase
@@ -73,6 +73,17 @@ class LinearModel:
         n = len(self.coordinates)
         self._free: Array = null_space(self.constraints) if len(self.constraints) else np.eye(n)
         self._constraints_inverse: Array = np.linalg.pinv(self.constraints.T)
+
+    @classmethod
+    def of(
+        cls, case: CaseLike | LinearModel, values: Mapping[str, Any] | None = None
+    ) -> LinearModel:
+        """Return a model as it is, or that of a case with `values` by dotted key replaced."""
+        if not isinstance(case, LinearModel):
+            return cls(read_case(case, values))
+        if values:
+            raise TypeError("`set` needs a case: the model was linearised without it")
+        return case
 
     @cached_property
     def database(self) -> HydroDatabase | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -344,6 +344,3 @@ def _function(name: str, values: list[Any]) -> Any:
     if name == "struct" and len(values) % 2 == 0:
         raise NotEvaluated("a struct of pairs")
     raise NotEvaluated(f"{name} is not known here")
-
-
-Names: TypeAlias = Mapping[str, Any]

@@ -66,11 +66,6 @@ def run(args: argparse.Namespace) -> int:
     -------
     int
         0, or 2 if a check found an error and nothing was written.
-
-    Raises
-    ------
-    HydrodaeError
-        Bad arguments, or bodies that touch each other or the seabed.
     """
     water = Water(
         omega=omega_of(args),

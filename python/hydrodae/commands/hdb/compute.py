@@ -108,11 +108,6 @@ def run(args: argparse.Namespace) -> int:
     -------
     int
         0, or 2 if a check found an error and nothing was written.
-
-    Raises
-    ------
-    HydrodaeError
-        Bad arguments or meshes, or Capytaine is missing.
     """
     settings = bem.Settings(
         omega=omega_of(args),

@@ -68,11 +68,6 @@ def run(args: argparse.Namespace) -> int:
     -------
     int
         0, or 2 if a check found an error (after repairs, if there were any).
-
-    Raises
-    ------
-    HydrodaeError
-        Bad arguments or data.
     """
     if (args.repair is None) != (args.output is None):
         raise CaseError("--repair and -o belong together: what to repair, and where to write it")

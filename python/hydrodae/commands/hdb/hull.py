@@ -45,13 +45,7 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def run(args: argparse.Namespace) -> int:
-    """Write the surface; returns 0.
-
-    Raises
-    ------
-    HydrodaeError
-        Bad arguments, or a surface that cannot be closed.
-    """
+    """Write the surface; returns 0."""
     if Path(args.output).suffix.lower() != ".stl":
         raise CaseError(f"-o {args.output!r}: expected a name that ends in .stl")
     if args.freeboard is not None and not args.freeboard > 0.0:

@@ -41,13 +41,7 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def run(args: argparse.Namespace) -> int:
-    """Write the database with the surfaces; returns 0.
-
-    Raises
-    ------
-    HydrodaeError
-        Bad arguments or meshes, or an unknown body.
-    """
+    """Write the database with the surfaces; returns 0."""
     database = HydroDatabase.read(args.database)
     panels = dict(_surface(text) for text in args.body)
     for name in panels:

@@ -46,13 +46,7 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def run(args: argparse.Namespace) -> int:
-    """Print the table; returns 0.
-
-    Raises
-    ------
-    HydrodaeError
-        Bad arguments or data.
-    """
+    """Print the table; returns 0."""
     case = given_case(args)
     band = None if args.band is None else _numbers("--band", args.band)
     if band is not None and band.size != 2:

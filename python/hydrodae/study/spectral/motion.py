@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.case.case import CaseLike, read_case
+from hydrodae.case.case import CaseLike
 from hydrodae.errors import CaseError
 from hydrodae.linear import LinearModel, Response
 from hydrodae.linear.sea import in_waves, wave_components
@@ -239,12 +239,7 @@ def spectral(
         raise CaseError(
             f"tolerance = {tolerance:g}, iterations = {iterations}: expected numbers > 0"
         )
-    if isinstance(case, LinearModel):
-        if set:
-            raise TypeError("`set` needs a case: the model was linearised without it")
-        model = case
-    else:
-        model = LinearModel(read_case(case, set))
+    model = LinearModel.of(case, set)
     loads, model = nonlinear_loads(model)
     start = perf_counter()
     waves = wave_components(model.case)
