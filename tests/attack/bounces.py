@@ -8,18 +8,7 @@ import numpy as np
 from tests.attack import truth
 from tests.attack.drives import Motion, functions, motion
 from tests.attack.family import chosen, family, log_uniform, unnamed
-from tests.attack.parts import (
-    GRAVITY,
-    X,
-    Z,
-    body,
-    both,
-    case,
-    driven,
-    joint,
-    position,
-    stop,
-)
+from tests.attack.parts import GRAVITY, X, Z, body, both, case, driven, joint, position, stop
 
 from hydrodae.study.stability import Scene
 
@@ -151,13 +140,7 @@ def _draw_box(g: np.random.Generator) -> dict[str, Any]:
 @chosen(how="sine", period=2.0, amplitude=0.5, gap=0.6, restitution=0.5)
 @chosen(how="table", period=3.0, amplitude=0.2, gap=1.0, restitution=0.2)
 @chosen(how="sine", period=2.0, amplitude=0.5, gap=0.8, restitution=0.0, kind="barge")
-def driven_box(
-    how: str,
-    period: float,
-    amplitude: float,
-    gap: float,
-    restitution: float,
-) -> Scene:
+def driven_box(how: str, period: float, amplitude: float, gap: float, restitution: float) -> Scene:
     """A block that slides freely between the walls of a driven box (gap in amplitudes)."""
     w, room = 2.0 * np.pi / period, gap * amplitude
     end = 4.0 * period
@@ -202,10 +185,7 @@ def _draw_balls(g: np.random.Generator) -> dict[str, Any]:
 @chosen(masses=(1.0, 3.0), height=0.1, apart=0.3, restitution=0.9)
 @chosen(masses=(2.0, 1.0), height=1.0, apart=0.1, restitution=0.7, kind="ship")
 def two_balls(
-    masses: tuple[float, float],
-    height: float,
-    apart: float,
-    restitution: float,
+    masses: tuple[float, float], height: float, apart: float, restitution: float
 ) -> Scene:
     """Two balls one above the other, dropped onto the floor, over their first eight impacts."""
     m, n = masses

@@ -165,11 +165,7 @@ def _draw_damped(g: np.random.Generator) -> dict[str, Any]:
     lengths=[1.0, 0.7, 0.5], masses=[2.0, 1.0, 1.0], angles=[1.5, 1.0, 2.5], damping=0.3, end=6.0
 )
 def damped_chain(
-    lengths: list[float],
-    masses: list[float],
-    angles: list[float],
-    damping: float,
-    end: float,
+    lengths: list[float], masses: list[float], angles: list[float], damping: float, end: float
 ) -> Scene:
     """A chain with a damper in each hinge."""
     chain = Chain(lengths, masses)
@@ -221,9 +217,7 @@ def chains_beside(size: float, end: float) -> Scene:
 
 def _draw_spun(g: np.random.Generator) -> dict[str, Any]:
     return dict(
-        bars=int(g.integers(2, 7)),
-        rate=log_uniform(g, 1.0, 100.0),
-        turns=g.uniform(3.0, 20.0),
+        bars=int(g.integers(2, 7)), rate=log_uniform(g, 1.0, 100.0), turns=g.uniform(3.0, 20.0)
     )
 
 

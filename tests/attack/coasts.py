@@ -89,11 +89,7 @@ def _draw_catch(g: np.random.Generator) -> dict[str, Any]:
 @chosen(masses=(50.0, 1.0), rate=5.0, speed=0.2, coast=150.0, restitution=1.0)
 @chosen(masses=(1.0, 1.0), rate=2.0, speed=1.0, coast=60.0, restitution=0.7, kind="barge")
 def rope_catch(
-    masses: tuple[float, float],
-    rate: float,
-    speed: float,
-    coast: float,
-    restitution: float,
+    masses: tuple[float, float], rate: float, speed: float, coast: float, restitution: float
 ) -> Scene:
     """A mass that coasts away from a sprung one until the rope between them is taut."""
     m, n = masses

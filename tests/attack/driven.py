@@ -8,16 +8,7 @@ import numpy as np
 from tests.attack import truth
 from tests.attack.drives import HOW, KIND, functions, knots, motion, start_rate
 from tests.attack.family import chosen, family, log_uniform, unnamed
-from tests.attack.parts import (
-    DOWN_Y,
-    X,
-    body,
-    case,
-    channel,
-    driven,
-    joint,
-    position,
-)
+from tests.attack.parts import DOWN_Y, X, body, case, channel, driven, joint, position
 
 from hydrodae.study.stability import Scene
 
@@ -178,12 +169,7 @@ def _draw_gear(g: np.random.Generator) -> dict[str, Any]:
 @chosen(how="table", amplitude=0.1, period=8.0, ratio=15.0, rate=6.0, damping=0.0)
 @chosen(how="python", amplitude=3.0, period=4.0, ratio=2.0, rate=1.0, damping=0.2, kind="ship")
 def driven_gear(
-    how: str,
-    amplitude: float,
-    period: float,
-    ratio: float,
-    rate: float,
-    damping: float,
+    how: str, amplitude: float, period: float, ratio: float, rate: float, damping: float
 ) -> Scene:
     """A driven wheel, a gear, and a third wheel on a soft shaft: c'' = -rate^2 (c - n f) - ...."""
     tau = min(1.0 / rate, period / (2.0 * np.pi))

@@ -203,11 +203,7 @@ def _draw_belt(g: np.random.Generator) -> dict[str, Any]:
 @chosen(how="python", amplitude=1.0, period=6.0, friction=8.0, stiffness=40.0, kind="barge")
 @chosen(how="rate", amplitude=0.2, period=6.0, friction=8.0, stiffness=40.0)
 def swinging_belt(
-    how: str,
-    amplitude: float,
-    period: float,
-    friction: float,
-    stiffness: float,
+    how: str, amplitude: float, period: float, friction: float, stiffness: float
 ) -> Scene:
     """A block of 1 kg with a spring to the ground on a driven belt, with Coulomb's friction.
 
@@ -341,11 +337,7 @@ def _draw_alone(g: np.random.Generator) -> dict[str, Any]:
 @chosen(amplitude=3.0, period=5.0, phase_deg=30.0, length=1.0, motion="rigid")
 @chosen(amplitude=0.2, period=1.0, phase_deg=0.0, length=1.0, motion="rigid", kind="barge")
 def arm_alone(
-    amplitude: float,
-    period: float,
-    phase_deg: float,
-    length: float,
-    motion: str,
+    amplitude: float, period: float, phase_deg: float, length: float, motion: str
 ) -> Scene:
     """A bar that does nothing but follow the sine of its hinge."""
     w, phase, half = 2.0 * np.pi / period, np.radians(phase_deg), 0.5 * length

@@ -20,8 +20,7 @@ TOLD = (
 
 def _draw(g: np.random.Generator) -> dict[str, Any]:
     return dict(
-        misfit=log_uniform(g, 1e-9, 1e-3),
-        direction=("side", "across", "tilt")[g.integers(3)],
+        misfit=log_uniform(g, 1e-9, 1e-3), direction=("side", "across", "tilt")[g.integers(3)]
     )
 
 

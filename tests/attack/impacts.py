@@ -101,11 +101,7 @@ def _draw_stops(g: np.random.Generator) -> dict[str, Any]:
 @chosen(mass=1.0, rate=10.0, release=0.1, room=0.3, restitution=1.0, kind="ship")
 @chosen(mass=76.0, rate=0.24, release=0.024, room=0.82, restitution=0.48)
 def spring_and_stop(
-    mass: float,
-    rate: float,
-    release: float,
-    room: float,
-    restitution: float,
+    mass: float, rate: float, release: float, room: float, restitution: float
 ) -> Scene:
     """A sprung mass whose way is bounded at `room` of its release on the other side."""
     bound = room * release

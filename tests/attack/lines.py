@@ -258,15 +258,7 @@ def shaken_line(
     top = [span * length, 0.0, 0.0]
     line = _line("top", [0.0, 0.0, 0.0], top, length, n, heavy, stiff, inner)
     tables = case(
-        [
-            body(
-                "top",
-                ["surge"],
-                heavy,
-                top,
-                velocity=[amplitude * rate * length / tau, 0.0, 0.0],
-            )
-        ],
+        [body("top", ["surge"], heavy, top, velocity=[amplitude * rate * length / tau, 0.0, 0.0])],
         15.0 * tau,
         samples=300,
         forces=[line],

@@ -162,9 +162,7 @@ def tumbling_nut(inertia: list[float], rate: float, seed: float, angle: float) -
 
 def _draw_top(g: np.random.Generator) -> dict[str, Any]:
     return dict(
-        excess=g.uniform(1.02, 2.0),
-        tilt=log_uniform(g, 1e-4, 0.1),
-        end=g.uniform(5.0, 60.0),
+        excess=g.uniform(1.02, 2.0), tilt=log_uniform(g, 1e-4, 0.1), end=g.uniform(5.0, 60.0)
     )
 
 
@@ -212,9 +210,7 @@ def sleeping_top(excess: float, tilt: float, end: float) -> Scene:
 
 def _draw_spherical(g: np.random.Generator) -> dict[str, Any]:
     return dict(
-        angle=g.uniform(0.2, 1.5),
-        sideways=g.uniform(0.05, 1.0),
-        end=g.uniform(100.0, 600.0),
+        angle=g.uniform(0.2, 1.5), sideways=g.uniform(0.05, 1.0), end=g.uniform(100.0, 600.0)
     )
 
 

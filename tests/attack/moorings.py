@@ -33,12 +33,7 @@ def _draw_winch(g: np.random.Generator) -> dict[str, Any]:
 @chosen(length=100.0, mass=1e6, stretch=0.01, at=5.0, heave=-0.1, over=2.0)
 @chosen(length=10.0, mass=100.0, stretch=0.05, at=20.0, heave=-0.3, over=10.0, kind="ship")
 def winch_lift(
-    length: float,
-    mass: float,
-    stretch: float,
-    at: float,
-    heave: float,
-    over: float,
+    length: float, mass: float, stretch: float, at: float, heave: float, over: float
 ) -> Scene:
     """A load that hangs at rest until a winch lifts or lowers it by `heave` lengths."""
     tau = float(np.sqrt(stretch * length / GRAVITY))  # of the spring of the rope

@@ -148,13 +148,7 @@ def _draw_bundle(g: np.random.Generator) -> dict[str, Any]:
 @chosen(mass=1e-6, ropes=[[1e-2, 0.0, 0.0, 1.5e-6 * GRAVITY]], end=0.3)
 @chosen(mass=0.01, ropes=[[10.0, 0.0, 0.0, 0.015 * GRAVITY]], end=1.0, kind="ship")
 @chosen(mass=1e7, ropes=[[5e6, 0.0, 0.0, 1.2e7 * GRAVITY]], end=12.0)
-def rope_bundle(
-    mass: float,
-    ropes: list[Any],
-    end: float,
-    x: float = 0.0,
-    v: float = 0.0,
-) -> Scene:
+def rope_bundle(mass: float, ropes: list[Any], end: float, x: float = 0.0, v: float = 0.0) -> Scene:
     """A mass on ropes side by side, which part as it falls into them."""
     bundle = Bundle(mass, ropes)
     forces = [

@@ -104,10 +104,7 @@ def spring_at_one_place(speed: tuple[float, ...], rate: float, damping: float = 
 
 def _draw_fold(g: np.random.Generator) -> dict[str, Any]:
     mu = g.uniform(0.02, 0.3)
-    return {
-        "mu": mu,
-        "ratio": float(np.exp(mu * np.pi * g.uniform(1.3, 3.0))),
-    }
+    return {"mu": mu, "ratio": float(np.exp(mu * np.pi * g.uniform(1.3, 3.0)))}
 
 
 @family(KIND, _draw_fold)

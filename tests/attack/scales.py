@@ -34,11 +34,7 @@ def _draw_spring(g: np.random.Generator) -> dict[str, Any]:
 @chosen(mass=1.0, rate=1e3, length=1.0, release=1e-3, damping=0.02)
 @chosen(mass=100.0, rate=0.01, length=1.0, release=1e-3)
 def mass_on_spring(
-    mass: float,
-    rate: float,
-    length: float,
-    release: float,
-    damping: float = 0.0,
+    mass: float, rate: float, length: float, release: float, damping: float = 0.0
 ) -> Scene:
     """A mass on a spring, let go: x = a cos(w t)."""
     end = 60.0 / rate

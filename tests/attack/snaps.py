@@ -39,13 +39,7 @@ def _draw_pair(g: np.random.Generator) -> dict[str, Any]:
     scale=UNIT, light=1.5, speed=0.1, stiff=0.5, slack=0.02, damping=0.005, end=150.0, kind="barge"
 )
 def slack_pair(
-    scale: Three,
-    light: float,
-    speed: float,
-    stiff: float,
-    slack: float,
-    damping: float,
-    end: float,
+    scale: Three, light: float, speed: float, stiff: float, slack: float, damping: float, end: float
 ) -> Scene:
     """A sprung mass, a rope, a mass, a rope, ground: both ropes slacken and snap."""
     s, k = Scale(*scale), np.array([1.0, 1.9])
@@ -129,13 +123,7 @@ def _draw_knock(g: np.random.Generator) -> dict[str, Any]:
     scale=LARGE, light=0.05, gap=0.3, inner=0.1, hard=100.0, exponent=1.5, end=6.0, kind="rotor"
 )
 def knocking_pair(
-    scale: Three,
-    light: float,
-    gap: float,
-    inner: float,
-    hard: float,
-    exponent: float,
-    end: float,
+    scale: Three, light: float, gap: float, inner: float, hard: float, exponent: float, end: float
 ) -> Scene:
     """A mass on a spring between compliant stops, and another on springs within it likewise."""
     s = Scale(*scale)
@@ -253,12 +241,7 @@ def _draw_bistable(g: np.random.Generator) -> dict[str, Any]:
 @chosen(height=0.92, period=7.5, length=5.94, squeeze=1.295, stiff=7.7, end=100.0)
 @chosen(height=1.5, period=5.5, length=5.0, squeeze=1.2, stiff=5.0, end=150.0)
 def bistable_float(
-    height: float,
-    period: float,
-    length: float,
-    squeeze: float,
-    stiff: float,
-    end: float,
+    height: float, period: float, length: float, squeeze: float, stiff: float, end: float
 ) -> Scene:
     """The sphere in a regular wave beside a squeezed spring, which pushes it up or down."""
     stiffness = stiff * sea.sphere().stiffness
@@ -288,12 +271,7 @@ def bistable_float(
 
 
 def _float_in_waves(
-    title: str,
-    height: float,
-    period: float,
-    end: float,
-    law: Any,
-    force: dict[str, Any],
+    title: str, height: float, period: float, end: float, law: Any, force: dict[str, Any]
 ) -> Scene:
     """Return a scene of the sphere in heave under a force of its place and speed."""
     s, ramp = sea.sphere(), 10.0

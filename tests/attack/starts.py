@@ -9,18 +9,7 @@ import numpy as np
 from tests.attack import driven as driven_mechanisms
 from tests.attack import truth
 from tests.attack.family import chosen, family, log_uniform, unnamed
-from tests.attack.parts import (
-    DOWN_Y,
-    GRAVITY,
-    X,
-    Z,
-    body,
-    case,
-    driven,
-    joint,
-    position,
-    stop,
-)
+from tests.attack.parts import DOWN_Y, GRAVITY, X, Z, body, case, driven, joint, position, stop
 
 from hydrodae.study.stability import Scene
 
@@ -30,9 +19,7 @@ TOLD = r"(?i)veloc|rate|m/s|rad/s"
 
 def _draw_push(g: np.random.Generator) -> dict[str, Any]:
     return dict(
-        length=log_uniform(g, 0.01, 100.0),
-        angle=g.uniform(0.0, 1.5),
-        speed=g.uniform(0.1, 1.5),
+        length=log_uniform(g, 0.01, 100.0), angle=g.uniform(0.0, 1.5), speed=g.uniform(0.1, 1.5)
     )
 
 
@@ -155,9 +142,7 @@ def crank_alone(rate: float) -> Scene:
 
 def _draw_contact(g: np.random.Generator) -> dict[str, Any]:
     return dict(
-        speed=g.uniform(-1.0, 1.0),
-        restitution=g.uniform(0.0, 0.8),
-        mass=log_uniform(g, 1e-3, 1e5),
+        speed=g.uniform(-1.0, 1.0), restitution=g.uniform(0.0, 0.8), mass=log_uniform(g, 1e-3, 1e5)
     )
 
 

@@ -87,9 +87,7 @@ def wave_group(height: float, period: float, at: float, settled: bool = False) -
 
 def _draw_low(g: np.random.Generator) -> dict[str, Any]:
     return dict(
-        height=log_uniform(g, 1e-4, 1.0),
-        period=g.uniform(3.0, 12.0),
-        ramp=g.uniform(5.0, 60.0),
+        height=log_uniform(g, 1e-4, 1.0), period=g.uniform(3.0, 12.0), ramp=g.uniform(5.0, 60.0)
     )
 
 
@@ -114,9 +112,7 @@ def low_wave(height: float, period: float, ramp: float) -> Scene:
 
 def _draw_ramp(g: np.random.Generator) -> dict[str, Any]:
     return dict(
-        height=log_uniform(g, 0.01, 1.0),
-        period=g.uniform(3.5, 10.0),
-        ramp=g.uniform(200.0, 800.0),
+        height=log_uniform(g, 0.01, 1.0), period=g.uniform(3.5, 10.0), ramp=g.uniform(200.0, 800.0)
     )
 
 

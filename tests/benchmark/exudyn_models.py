@@ -31,10 +31,7 @@ Array = NDArray[np.float64]
 VERSION = str(exu.__version__)
 GRAVITY = 9.81
 # constrained translations, then rotations, of a joint whose axis is z
-FIXED = {
-    "revolute": (1, 1, 1, 1, 1, 0),
-    "prismatic": (1, 1, 0, 1, 1, 1),
-}
+FIXED = {"revolute": (1, 1, 1, 1, 1, 0), "prismatic": (1, 1, 0, 1, 1, 1)}
 
 
 class Model:

@@ -215,9 +215,7 @@ def test_results_are_records_too(case: Case, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_drag_of_a_chain_from_half_of_its_record_predicts_the_other_half(
-    reference: Path,
-) -> None:
+def test_drag_of_a_chain_from_half_of_its_record_predicts_the_other_half(reference: Path) -> None:
     """From a start that is too high; both halves are the same motion.
 
     Nothing is asked of the values: across the chain the authors of the experiment have 1.505, which

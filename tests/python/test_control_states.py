@@ -122,10 +122,7 @@ def test_a_port_is_free_when_a_run_is_closed() -> None:
         other = Simulation(case(port))
         go(other, 1.0)
         other.close()
-    with (
-        socket.create_server(("127.0.0.1", port)),
-        stopped("controller", "controllers/pi"),
-    ):
+    with socket.create_server(("127.0.0.1", port)), stopped("controller", "controllers/pi"):
         run.advance()
     fresh = Simulation(case(port))
     fresh.close()
@@ -160,10 +157,7 @@ def test_a_state_goes_on_with_a_new_connection(protocol: str) -> None:
         run.close()
     del run  # which listens at the port
     run = Simulation(case(port, f'protocol = "{protocol}"'))
-    with (
-        damper(port, protocol, until=2.0, leaves=True),
-        stopped("controller", "controllers/pi"),
-    ):
+    with damper(port, protocol, until=2.0, leaves=True), stopped("controller", "controllers/pi"):
         go(run, 4.0)
     with stopped("state"):
         run.advance(4.0)

@@ -211,10 +211,7 @@ NUMBERED_FAULTS: dict[str, tuple[Callable[[socket.socket], None], str]] = {
     "silent": (answers(b""), "sent nothing for 1 s"),
     "silent at the handshake": (listens, "sent nothing for 1 s"),
     "half a frame": (answers(frame(1, 0.0, 1.0)[:20]), "part of a frame only for 1 s"),
-    "half a frame, then killed": (
-        answers(frame(1, 0.0, 1.0)[:20], wait=False),
-        "inside a frame",
-    ),
+    "half a frame, then killed": (answers(frame(1, 0.0, 1.0)[:20], wait=False), "inside a frame"),
     "garbage": (answers(b"GET / HTTP/1.1\r\nHost: x\r\n\r\n"), "frame of"),
     "oversized": (answers(frame(1, 0.0, 1.0, 2.0)), "of length 36; expected 28"),
     "two frames": (answers(2 * frame(1, 0.0, 1.0)), "more than one frame"),

@@ -115,12 +115,7 @@ class CumminsModel:
         return result
 
     def free_decay(
-        self,
-        q0: npt.ArrayLike,
-        time: Array,
-        *,
-        sigma: float | None = None,
-        omega_max: float = 40.0,
+        self, q0: npt.ArrayLike, time: Array, *, sigma: float | None = None, omega_max: float = 40.0
     ) -> Array:
         """Return q(t), (nt, m), after a release from q0 at rest in still water.
 

@@ -269,11 +269,7 @@ def test_auto_takes_the_method_that_knows_them() -> None:
 def test_the_energy_guard_looks_inside_steps(repository: Path) -> None:
     """A step that loses energy ends the run by the guard in both coordinates."""
     case = hydrodae.Case.read(repository / "cases" / "benchmarks" / "bricard.toml").with_values(
-        {
-            "solver.method": "explicit_rk",
-            "solver.order": 5,
-            "solver.step": 0.2,
-        }
+        {"solver.method": "explicit_rk", "solver.order": 5, "solver.step": 0.2}
     )
     for values in ({}, REDUCED):
         with pytest.raises(hydrodae.SolverError, match="energy"):

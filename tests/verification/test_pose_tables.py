@@ -264,12 +264,7 @@ def test_the_added_mass_of_a_small_sphere_keeps_the_energy(tmp_path: Path, refer
         body = replace(rest.bodies["sphere"], reference_point=point, hydrostatics=None)
         files.append(f"pose{k}.h5")
         replace(
-            rest,
-            added_mass_inf=table,
-            rho=998.2,
-            bodies={"sphere": body},
-            memory={},
-            kernel=None,
+            rest, added_mass_inf=table, rho=998.2, bodies={"sphere": body}, memory={}, kernel=None
         ).write(tmp_path / files[-1])
     hulls.write_obj(tmp_path / "sphere.obj", hulls.sphere(radius, 12))
     middle = files[int(np.abs(poses).argmin())]

@@ -121,7 +121,6 @@ def test_constant_radiation_is_exact_at_its_frequency(repository: Path) -> None:
     }
     memory = hydrodae.run(case, set=values)
     constant = hydrodae.run(
-        case,
-        set={**values, "hydro.radiation": "constant", "hydro.frequency": 2.0 * np.pi / 5.0},
+        case, set={**values, "hydro.radiation": "constant", "hydro.frequency": 2.0 * np.pi / 5.0}
     )
     assert rao(constant, 5.0) == pytest.approx(rao(memory, 5.0), rel=1e-3)

@@ -87,11 +87,7 @@ def of_rao(found: Rao) -> dict[str, Any]:
 def _of_response(response: Response) -> dict[str, Any]:
     """Amplitude and phase [rad] of each channel over omega [rad/s], per metre of wave amplitude."""
     columns = {
-        name: {
-            "unit": unit,
-            "amplitude": np.abs(response[name]),
-            "phase": np.angle(response[name]),
-        }
+        name: {"unit": unit, "amplitude": np.abs(response[name]), "phase": np.angle(response[name])}
         for name, unit in zip(response.names, response.units, strict=True)
     }
     head = {"omega": response.omega, "heading": response.heading, "channels": columns}

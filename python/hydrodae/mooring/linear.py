@@ -107,10 +107,7 @@ def linearise(
         if any(h.held == [body] for h in single)
     ]
     return LinearMooring(
-        model.case.title,
-        tables,
-        tuple(h.name for h in single),
-        tuple(_reason(h) for h in joins),
+        model.case.title, tables, tuple(h.name for h in single), tuple(_reason(h) for h in joins)
     )
 
 

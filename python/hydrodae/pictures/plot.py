@@ -140,12 +140,7 @@ def draw_comparison(
 
 
 def new_figure(
-    results: Results,
-    rows: int,
-    *,
-    width: float = 8.0,
-    row_height: float = 2.1,
-    spectra: int = 0,
+    results: Results, rows: int, *, width: float = 8.0, row_height: float = 2.1, spectra: int = 0
 ) -> tuple[Figure, list[Axes]]:
     """Make a figure of `rows` panels over one time axis, titled after the run.
 

@@ -15,13 +15,7 @@ from hydrodae.viewer.source import Source
 from hydrodae.viewer.stage import Body, Curve
 
 #: Shown without being asked for.
-USUAL = (
-    "bodies/*/position",
-    "bodies/*/rotation",
-    "bodies/*/velocity",
-    "joints/*",
-    "sea/elevation",
-)
+USUAL = ("bodies/*/position", "bodies/*/rotation", "bodies/*/velocity", "joints/*", "sea/elevation")
 
 
 def make_curves(

@@ -21,12 +21,7 @@ Array = NDArray[np.float64]
 
 
 def add_mooring(
-    text: CaseText,
-    block: Block,
-    place: str,
-    body: int | None,
-    bodies: Bodies,
-    read: InputFile,
+    text: CaseText, block: Block, place: str, body: int | None, bodies: Bodies, read: InputFile
 ) -> None:
     """Add the forces of a mooring block; what is not read goes to the remarks."""
     match = re.search(r"mooring\((\d+)\)", block.parameters.get("mooring", "mooring(1)"))

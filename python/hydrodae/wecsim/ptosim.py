@@ -132,8 +132,7 @@ def _direct_drive(text: CaseText, item: Item, mount: Mount, law: Law, read: Inpu
     if not limit:
         raise NotEvaluated(f"the controller of {item.title} asks for no load")
     read.remarks.assumed(
-        read.place(item.line),
-        f"{item.title}: a limit of {limit:.4g} N m; PTO-Sim has no limit",
+        read.place(item.line), f"{item.title}: a limit of {limit:.4g} N m; PTO-Sim has no limit"
     )
     text.table(
         "[[force]]",

@@ -54,12 +54,7 @@ def tumbling_body(time: Array, accuracy: Accuracy) -> Array:
 
 PROBLEMS = {
     "fast_rotor": Problem(
-        "DOP853, axis and angular momentum",
-        ("comx", "comy", "comz"),
-        1.0,
-        0.005,
-        fast_rotor,
-        1e-10,
+        "DOP853, axis and angular momentum", ("comx", "comy", "comz"), 1.0, 0.005, fast_rotor, 1e-10
     ),
     "tumbling_body": Problem(
         "DOP853, body rates and rotation matrix",

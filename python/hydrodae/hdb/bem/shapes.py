@@ -66,13 +66,7 @@ def sphere(size: float, *, radius: float, x: float = 0.0, y: float = 0.0, z: flo
 
 
 def cylinder(
-    size: float,
-    *,
-    radius: float,
-    draft: float,
-    top: float = 0.0,
-    x: float = 0.0,
-    y: float = 0.0,
+    size: float, *, radius: float, draft: float, top: float = 0.0, x: float = 0.0, y: float = 0.0
 ) -> Array:
     """Vertical cylinder from z = top down to z = -draft; its polygons have the area of the circle.
 

@@ -126,9 +126,7 @@ def irregular(db: HydroDatabase, share: float = MOST_REPLACED) -> tuple[HydroDat
         w, a, b = made.omega, made.added_mass, made.radiation_damping
         value, std = infinity.added_mass_inf(w, a, b)
         made = replace(
-            made,
-            added_mass_inf=0.5 * (value + value.T),
-            added_mass_inf_std=0.5 * (std + std.T),
+            made, added_mass_inf=0.5 * (value + value.T), added_mass_inf_std=0.5 * (std + std.T)
         )
         text += "; added_mass_inf estimated again"
     return made, text

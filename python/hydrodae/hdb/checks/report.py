@@ -25,12 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 Array = NDArray[np.float64]
-UNITS = {
-    "A": ("kg", "kg m2"),
-    "B": ("N s/m", "N m s"),
-    "F": ("N/m", "N m/m"),
-    "K": ("N/m", "N m"),
-}
+UNITS = {"A": ("kg", "kg m2"), "B": ("N s/m", "N m s"), "F": ("N/m", "N m/m"), "K": ("N/m", "N m")}
 SUSPECT, FIT = "#F6D5D5", "black"
 
 

@@ -216,12 +216,7 @@ def _of_damping(database: HydroDatabase, names: Sequence[str]) -> Finding | None
 
 
 def _damping_of(
-    db: HydroDatabase,
-    name: str,
-    dof: int,
-    names: Sequence[str],
-    k: Array,
-    long: NDArray[np.bool_],
+    db: HydroDatabase, name: str, dof: int, names: Sequence[str], k: Array, long: NDArray[np.bool_]
 ) -> tuple[float, str, float] | None:
     """Implied over stored damping of one motion, its label, and the ratio that is an error.
 

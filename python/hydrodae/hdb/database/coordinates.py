@@ -12,11 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.labels import DOFS, bodies_of, read_labels
 
-GROUPS = {
-    "all": DOFS,
-    "planar": ("surge", "heave", "pitch"),
-    "lateral": ("sway", "roll", "yaw"),
-}
+GROUPS = {"all": DOFS, "planar": ("surge", "heave", "pitch"), "lateral": ("sway", "roll", "yaw")}
 
 
 def body_name(raw: str) -> str:
@@ -135,9 +131,7 @@ def skew(r: ArrayLike) -> NDArray[np.float64]:
 
 
 def transport(
-    labels: Sequence[str],
-    shifts: Mapping[str, NDArray[np.float64]],
-    owner: str = "the database",
+    labels: Sequence[str], shifts: Mapping[str, NDArray[np.float64]], owner: str = "the database"
 ) -> NDArray[np.float64]:
     """Matrix X of a change of reference points: U_old = X U_new, F_new = X^T F_old.
 

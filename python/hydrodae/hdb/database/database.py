@@ -114,9 +114,7 @@ class HydroDatabase(Tables):
             kernel=None
             if self.kernel is None
             else replace(
-                self.kernel,
-                inputs=rename(self.kernel.inputs),
-                outputs=rename(self.kernel.outputs),
+                self.kernel, inputs=rename(self.kernel.inputs), outputs=rename(self.kernel.outputs)
             ),
             memory={
                 key: replace(fit, inputs=rename(fit.inputs), outputs=rename(fit.outputs))

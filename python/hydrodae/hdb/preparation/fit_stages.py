@@ -14,12 +14,7 @@ from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.checks.band import felt_band
 from hydrodae.hdb.checks.irregular import suspect_rows
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.preparation.left_out import (
-    OUTSIDE,
-    cure,
-    rows_left_out,
-    without_lone_rows,
-)
+from hydrodae.hdb.preparation.left_out import OUTSIDE, cure, rows_left_out, without_lone_rows
 
 if TYPE_CHECKING:
     from hydrodae.hdb.memory import ExponentialMemory

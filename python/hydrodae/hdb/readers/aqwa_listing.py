@@ -24,11 +24,7 @@ from hydrodae.hdb.readers.aqwa_common import (
     unique_headings,
     unit_of_mass,
 )
-from hydrodae.hdb.readers.aqwa_pages import (
-    pages_of_structures,
-    read_matrix,
-    read_radiation,
-)
+from hydrodae.hdb.readers.aqwa_pages import pages_of_structures, read_matrix, read_radiation
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.readers.text import NUMBER, number, read_text
 from hydrodae.hdb.relations.dispersion import wavenumber

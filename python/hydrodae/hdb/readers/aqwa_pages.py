@@ -117,10 +117,7 @@ def read_radiation(
 
 
 def _of_structure(
-    path: Path,
-    lines: list[str],
-    moving: int,
-    found: dict[float, dict[tuple[str, int, int], Array]],
+    path: Path, lines: list[str], moving: int, found: dict[float, dict[tuple[str, int, int], Array]]
 ) -> None:
     omega = None
     for at, line in enumerate(lines):

@@ -283,11 +283,6 @@ def _added_mass_inf(data: SourceData, a: Array, b: Array) -> tuple[Array, Array,
         level = "error"
         text += "; so far off are A and B of different columns, units or runs"
     data.findings.append(
-        Finding(
-            level,
-            "added_mass_inf of the source",
-            text,
-            value=float(error.max()),
-        )
+        Finding(level, "added_mass_inf of the source", text, value=float(error.max()))
     )
     return given, np.abs(given - value), "source"

@@ -36,11 +36,7 @@ CLEAR = 5.0
 #: and one that is not.
 ADDS_UP, MISSES = 1e-3, 1e-2
 #: The three forces by their words in `--time-convention`.
-PARTS = {
-    "excitation": "excitation",
-    "froude-krylov": "froude_krylov",
-    "diffraction": "diffraction",
-}
+PARTS = {"excitation": "excitation", "froude-krylov": "froude_krylov", "diffraction": "diffraction"}
 #: What may be said of them.
 FORMAT, OTHER = "format", "other"
 

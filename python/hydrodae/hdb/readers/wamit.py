@@ -294,12 +294,7 @@ def _forces(
 
 
 def _attach_hydrostatics(
-    data: SourceData,
-    stem: Path,
-    control: Control,
-    names: list[str],
-    length: float,
-    every: Array,
+    data: SourceData, stem: Path, control: Control, names: list[str], length: float, every: Array
 ) -> None:
     """Waterplane from `.hst`, whose K44 and K55 hold the weight too: - m g z_G in body axes."""
     path = beside(stem, ".hst")

@@ -12,13 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.study.spectral.factors import (
-    Law,
-    gauss_drag,
-    gauss_law,
-    lorentz_drag,
-    lorentz_law,
-)
+from hydrodae.study.spectral.factors import Law, gauss_drag, gauss_law, lorentz_drag, lorentz_law
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

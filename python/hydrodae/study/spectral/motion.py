@@ -17,12 +17,7 @@ from hydrodae.errors import CaseError
 from hydrodae.linear import LinearModel, Response
 from hydrodae.linear.sea import in_waves, wave_components
 from hydrodae.study.spectral import text
-from hydrodae.study.spectral.linearise import (
-    all_notes,
-    dampings,
-    mean_powers,
-    nonlinear_loads,
-)
+from hydrodae.study.spectral.linearise import all_notes, dampings, mean_powers, nonlinear_loads
 from hydrodae.study.spectral.output import write
 from hydrodae.study.spectral.seeds import Seeds, comparison, time_domain
 from hydrodae.study.spectral.solve import equivalents

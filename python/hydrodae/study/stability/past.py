@@ -91,9 +91,7 @@ def late_damper(time: Array) -> Array:
 
 
 def _float(name: str, title: str, length: float, **how: Any) -> Scene:
-    tables = water.float_tables() | {
-        "hydro": {"radiation": "convolution", "memory_length": length},
-    }
+    tables = water.float_tables() | {"hydro": {"radiation": "convolution", "memory_length": length}}
     return Scene(name, title, tables, 1.0, 0.5, database=_write, **how)
 
 

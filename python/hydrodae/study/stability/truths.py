@@ -156,9 +156,7 @@ def _buoy_pendulum(_t: float, s: Array) -> Array:
 
 
 mass_ratio = integrated(
-    _buoy_pendulum,
-    [1.0, 0.0, 0.0, 0.0],
-    lambda s: [s[0] + np.sin(s[1]), -np.cos(s[1])],
+    _buoy_pendulum, [1.0, 0.0, 0.0, 0.0], lambda s: [s[0] + np.sin(s[1]), -np.cos(s[1])]
 )
 
 
