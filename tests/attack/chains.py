@@ -9,9 +9,10 @@ import numpy as np
 from tests.attack import truth
 from tests.attack.bars import SOURCE, Chain
 from tests.attack.family import chosen, family, log_uniform, unnamed
-from tests.attack.parts import GRAVITY, Array, case, stop
+from tests.attack.parts import GRAVITY, case, stop
 
 from hydrodae.study.stability import Scene
+from hydrodae.support.arrays import Array
 
 
 def _drawn(g: np.random.Generator, most: int = 4) -> dict[str, Any]:

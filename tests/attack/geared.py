@@ -9,9 +9,10 @@ import numpy as np
 from tests.attack import truth
 from tests.attack.bars import SOURCE, Chain
 from tests.attack.family import chosen, family, log_uniform, unnamed
-from tests.attack.parts import Array, both, case, driven
+from tests.attack.parts import both, case, driven
 
 from hydrodae.study.stability import Scene
+from hydrodae.support.arrays import Array
 
 
 def _reduced(chain: Chain, pose: Callable[[float, float], Any], first: float) -> truth.Rates:

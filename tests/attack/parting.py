@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 from tests.attack import truth
 from tests.attack.family import chosen, family, log_uniform, unnamed
-from tests.attack.parts import GRAVITY, Array, Table, body, both, case, position
+from tests.attack.parts import GRAVITY, Table, body, both, case, position
 
 from hydrodae.study.stability import Scene
+from hydrodae.support.arrays import Array
 
 KIND = "moorings"
 LENGTH = 10.0  #: of the ropes [m]

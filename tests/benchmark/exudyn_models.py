@@ -17,16 +17,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from tests.benchmark.peer_problems import EACH_STEP, FULL, Compared, Setting
+
+from hydrodae.support.arrays import Array
 
 vars(sys)["exudynFast"] = True  # Exudyn's build without range checks; its default is slower
 
 import exudyn as exu  # noqa: E402
 import exudyn.itemInterface as items  # noqa: E402
 import exudyn.utilities as tools  # noqa: E402
-
-Array = NDArray[np.float64]
 
 VERSION = str(exu.__version__)
 GRAVITY = 9.81

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from tests.verification.multibody import columns, governor_solution, heavy_top_solution
 
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
+
 Rows = tuple[tuple[str, int], ...]  # of joints: name, row
 
 ALPHA, TRAPEZOIDAL = "GeneralizedAlpha", "TrapezoidalIndex2"

@@ -28,8 +28,8 @@ from scipy.interpolate import CubicSpline, PPoly
 
 from hydrodae.hdb.labels import DOFS
 from hydrodae.linear import LinearModel
+from hydrodae.support.arrays import Array
 
-Array = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
 
 

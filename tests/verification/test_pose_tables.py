@@ -17,8 +17,8 @@ import hydrodae
 from hydrodae.errors import CaseError
 from hydrodae.hdb import HydroDatabase
 from hydrodae.linear import LinearModel
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 ROOT = Path(__file__).resolve().parents[2]
 RADIUS, MASS, CENTER, RHO, GRAVITY = 5.0, 261.8e3, -2.0, 1000.0, 9.81
 

@@ -14,14 +14,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from hydrodae.case.scene import Scene
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.coordinates import body_name
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 #: Tables of which every unit has its own entries; the others are of the whole array.
 OF_UNITS = (

@@ -7,13 +7,11 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.case import Case
 from hydrodae.case.case import parse_assignment
 from hydrodae.errors import CaseError, DatabaseError
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 def given_case(arguments: argparse.Namespace, values: Mapping[str, Any] | None = None) -> Case:

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.linalg import null_space
 
 from hydrodae import _core
@@ -31,9 +31,7 @@ from hydrodae.linear.response import (
 from hydrodae.linear.rotary import RotaryTakeOff, rotary_take_offs
 from hydrodae.linear.sea import in_waves, wave_components
 from hydrodae.linear.tables import WaterTables
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from hydrodae.support.arrays import Array, Complex
 
 
 class LinearModel:

@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.linear.bodies import AtRest, Bodies
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 @dataclass(frozen=True)

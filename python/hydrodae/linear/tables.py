@@ -15,9 +15,7 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.labels import read_labels
 from hydrodae.hdb.relations.dispersion import wavenumber
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from hydrodae.support.arrays import Array, Complex
 
 
 class WaterTables:

@@ -7,14 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.case.case import CaseLike, to_toml
 from hydrodae.errors import CaseError
 from hydrodae.linear import LinearModel
 from hydrodae.mooring.stiffness import Hold, holds, mooring_stiffness, turn_by_vector
-
-Array = NDArray[np.float64]
 
 #: Springs may be power take-offs: they are linearised only if they are named.
 _ASKED_FOR = ("spring_damper",)

@@ -6,7 +6,6 @@ import re
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.mooring import read_moordyn
@@ -16,8 +15,6 @@ from hydrodae.wecsim.objects import InputFile, Item
 from hydrodae.wecsim.slx import Block
 from hydrodae.wecsim.text import CaseText
 from hydrodae.wecsim.topology import plain_name
-
-Array = NDArray[np.float64]
 
 
 def add_mooring(

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hydrodae.support.arrays import Array
 from hydrodae.wecsim.m_text import NotEvaluated
 from hydrodae.wecsim.objects import InputFile, Item
 from hydrodae.wecsim.ptosim_laws import Motor, linear_generator, shaft_lag, valve_curve
@@ -16,8 +16,6 @@ from hydrodae.wecsim.ptosim_trace import Chain
 from hydrodae.wecsim.signals import Law
 from hydrodae.wecsim.stages import Stages, term
 from hydrodae.wecsim.text import CaseText
-
-Array = NDArray[np.float64]
 
 #: Rate at which a rectifier changes over [m/s]: below it the piston creeps in place of resting.
 VALVE_RATE = 0.001

@@ -13,7 +13,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from tests.verification.truths.problem import FINE, GRAVITY, Accuracy, Array, Problem, integrated
+from tests.verification.truths.problem import FINE, GRAVITY, Accuracy, Problem, integrated
+
+from hydrodae.support.arrays import Array
 
 
 def pendulum(time: Array, accuracy: Accuracy) -> Array:

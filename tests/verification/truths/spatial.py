@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from tests.verification.truths.problem import GRAVITY, Accuracy, Array, Problem, integrated
+from tests.verification.truths.problem import GRAVITY, Accuracy, Problem, integrated
+
+from hydrodae.support.arrays import Array
 
 
 def fast_rotor(time: Array, accuracy: Accuracy) -> Array:

@@ -25,9 +25,8 @@ from hydrodae.hdb.database.coordinates import body_name, check_body
 from hydrodae.hdb.hull.meshes import mirrored, read_mesh
 from hydrodae.hdb.preparation import computing, pipeline
 from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.support.arrays import Array
 from hydrodae.support.progress import StageLine
-
-Array = NDArray[np.float64]
 
 #: Wall time between two lines of progress [s].
 INTERVAL = 5.0

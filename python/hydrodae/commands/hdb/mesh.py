@@ -14,6 +14,7 @@ from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.coordinates import check_body
 from hydrodae.hdb.database.files import is_single
 from hydrodae.hdb.hull.meshes import read_mesh
+from hydrodae.support.arrays import Array
 
 #: Panels along the longest side of a simple shape: fine enough for a picture.
 PANELS = 24
@@ -53,7 +54,7 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def _surface(text: str) -> tuple[str, shapes.Array]:
+def _surface(text: str) -> tuple[str, Array]:
     """Read NAME=SHAPE:key=value... or NAME=FILE[:x=..:y=..:z=..]."""
     name, equals, what = text.partition("=")
     if not equals or not what:

@@ -5,15 +5,13 @@ from __future__ import annotations
 import argparse
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.commands.arguments import given_case, heading_deg
 from hydrodae.commands.options import add_case
 from hydrodae.errors import CaseError
 from hydrodae.study.sensitivity import sensitivity
 from hydrodae.study.sensitivity.output import table, write
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

@@ -16,7 +16,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.bem.green import solve
@@ -24,9 +23,9 @@ from hydrodae.hdb.bem.lids import lid
 from hydrodae.hdb.bem.overlap import overlapping
 from hydrodae.hdb.database.shallow import SHALLOW
 from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.support.arrays import Array
 from hydrodae.support.extras import install_command
 
-Array = NDArray[np.float64]
 #: Panels of all bodies and lids: a full matrix of complex numbers, 16 bytes an entry.
 MOST_PANELS = 6000
 

@@ -15,8 +15,8 @@ from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.bem.revolution import check_top, cone, count, positive, revolved, ring
 from hydrodae.hdb.database.coordinates import nearest
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: No hull is longer [m].
 LONGEST = 2000.0
 #: Largest difference of the volumes by the three axes of a closed surface.

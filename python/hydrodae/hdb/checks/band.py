@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.scales import scales
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 Band = tuple[float, float]
 #: Motion in a wind sea, over that of a float in long waves, below which nothing is felt.
 LEAST_MOTION = 0.05

@@ -14,8 +14,7 @@ from hydrodae.hdb.database.kernels import diagonal_kernels
 from hydrodae.hdb.database.scales import scales
 from hydrodae.hdb.labels import bodies_of
 from hydrodae.hdb.relations import infinity, irf
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 @dataclass(frozen=True)

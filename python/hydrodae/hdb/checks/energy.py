@@ -21,8 +21,8 @@ from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.scales import scales
 from hydrodae.hdb.relations.dispersion import group_velocity, wavenumber
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Fewest frequencies with enough damping that a verdict rests on.
 FEWEST = 3
 #: Largest step between headings that the integral over them bears.

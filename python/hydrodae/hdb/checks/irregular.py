@@ -11,8 +11,8 @@ from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.scales import scaled_damping_eigenvalues, scales
 from hydrodae.hdb.relations import irf
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: A spike is more than this many robust standard deviations of the residual ...
 SPREADS = 5.0
 #: ... and more than this share of the added mass.

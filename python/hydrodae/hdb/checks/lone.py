@@ -16,8 +16,8 @@ from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.scales import scales
 from hydrodae.hdb.relations.noise import cubic_miss, last_digit
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: A value is off by this share of H around it, and by so many times what its neighbours are.
 SHARE, ALONE = 0.01, 6.0
 #: Neighbours on either side that are judged without it.

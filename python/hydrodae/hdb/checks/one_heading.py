@@ -24,8 +24,8 @@ from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.scales import scales
 from hydrodae.hdb.labels import read_labels
 from hydrodae.hdb.relations.dispersion import group_velocity, wavenumber
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Fewest frequencies that a verdict rests on.
 FEWEST = 2
 #: Longest k times the length of the body.

@@ -20,8 +20,8 @@ from scipy.special import j1
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Longest k times the larger body, and k times the distance up to which the waves meet in order.
 LONG, FARTHEST = 1.0, 3.5
 #: Fewest frequencies, correlation that is no chance, least share of the distance along a motion.

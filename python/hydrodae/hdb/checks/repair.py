@@ -16,8 +16,8 @@ from hydrodae.hdb.database.coordinates import nearest
 from hydrodae.hdb.database.scales import scales
 from hydrodae.hdb.relations import infinity, irf, tails
 from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Share of the frequencies that may be replaced, unless another one is given.
 MOST_REPLACED = 0.15
 #: The tail reaches this multiple of the last frequency, in steps of this ratio.

@@ -19,12 +19,12 @@ from hydrodae.hdb.database.scales import scaled_damping_eigenvalues, scales
 from hydrodae.hdb.labels import Label, rigid
 from hydrodae.hdb.relations import tails
 from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.support.arrays import Array
 from hydrodae.support.style import COLORS, STYLE
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-Array = NDArray[np.float64]
 UNITS = {"A": ("kg", "kg m2"), "B": ("N s/m", "N m s"), "F": ("N/m", "N m/m"), "K": ("N/m", "N m")}
 SUSPECT, FIT = "#F6D5D5", "black"
 

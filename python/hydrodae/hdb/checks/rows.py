@@ -6,14 +6,13 @@ A table that lost a row, or a sign, reads as a device that moves without water t
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.hdb.checks.ground import standing
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Added mass of a translation over the largest one of its body that is a row left out.
 EMPTY = 1e-9
 #: Share of the largest added mass of its kind from which a negative one is no noise.

@@ -26,8 +26,8 @@ from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.relations.dispersion import group_velocity, wavenumber
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Fewest frequencies, and longest k times a length, of a verdict on forces and on damping.
 FEWEST, LONG, LONGER = 2, 0.3, 0.8
 #: A_11 over what diffraction says: 0.97 to 1.14 in 24 tables; over the whole force: 0.14 to 0.91.

@@ -12,8 +12,7 @@ from scipy.interpolate import CubicSpline
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import coordinates as co
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -19,11 +19,10 @@ from hydrodae.hdb.database.summary import summary
 from hydrodae.hdb.database.tables import Body, Tables
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import bodies_of, modes_of, read_labels
+from hydrodae.support.arrays import Array
 
 if TYPE_CHECKING:
     from hydrodae.hdb.memory import ExponentialMemory
-
-Array = NDArray[np.float64]
 
 
 class HydroDatabase(Tables):

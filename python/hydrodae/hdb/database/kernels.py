@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline
 
 from hydrodae.hdb.database.scales import scales
 from hydrodae.hdb.database.tables import Tables
 from hydrodae.hdb.database.transfer import TransferTables, enough
 from hydrodae.hdb.relations import irf
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Share of int |K| dt that may be left after the memory length.
 REST = 1e-3
 #: Longest memory that is looked for [s].

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.hdb.database.tables import Tables
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 def scales(database: Tables) -> Array:

@@ -16,12 +16,10 @@ from hydrodae.hdb.database.extra import SourceTable
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import DOFS, Label, bodies_of, modes_of, read_labels
 from hydrodae.hdb.relations import irf
+from hydrodae.support.arrays import Array, Complex
 
 if TYPE_CHECKING:
     from hydrodae.hdb.memory import ExponentialMemory
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)

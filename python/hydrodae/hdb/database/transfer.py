@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from hydrodae.hdb.database.convolution import taper, transform
 from hydrodae.hdb.relations import irf
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 #: Weight of the frequencies inside the band, in the least squares for A_inf.
 BAND_WEIGHT = 500.0

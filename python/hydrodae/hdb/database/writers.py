@@ -12,7 +12,6 @@ from typing import Any
 import h5py
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.database.database import HydroDatabase
@@ -20,9 +19,8 @@ from hydrodae.hdb.database.kernels import excitation_kernel, memory_length
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import six_of_each
 from hydrodae.support import outputs
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 #: Times of the kernels in a BEMIO file.
 KERNEL_TIMES = 1001
 #: Longest step of the time of a kernel times the highest frequency: 10 points a period.

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.checks.check import check
@@ -19,9 +19,7 @@ from hydrodae.hdb.interaction.array import Solution, solve
 from hydrodae.hdb.interaction.cylinder import Cylinder
 from hydrodae.hdb.interaction.vertical import outside
 from hydrodae.hdb.labels import DOFS, six_of_each
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from hydrodae.support.arrays import Array, Complex
 
 #: Eigenfunctions over one draught, if not given; and the most that are taken by default.
 MODES_PER_DRAFT, MOST_MODES = 18, 600

@@ -14,8 +14,8 @@ from hydrodae.hdb.database.all_round import EQUAL, closed
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.labels import rigid
 from hydrodae.hdb.readers.symmetric import ACROSS, ALONG, SAME, absent
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 TURN = 2.0 * np.pi
 #: Each plane: the component of a point normal to it, the signs of the six, and the heading of a
 #: mirrored wave, `first` - heading.

@@ -12,9 +12,7 @@ from hydrodae.hdb.database.coordinates import unique_names
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.labels import six_of_each
 from hydrodae.hdb.readers.source import SourceData
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from hydrodae.support.arrays import Array, Complex
 
 
 def unit_of_mass(path: Path, rho: float, gravity: float) -> float:

@@ -12,7 +12,6 @@ import re
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
@@ -28,9 +27,7 @@ from hydrodae.hdb.readers.aqwa_pages import pages_of_structures, read_matrix, re
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.readers.text import NUMBER, number, read_text
 from hydrodae.hdb.relations.dispersion import wavenumber
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from hydrodae.support.arrays import Array, Complex
 
 #: What AQWA writes last, and within how many lines of the end.
 _END, END_LINES = re.compile(r"FINISH\s+(DATE|TIME)|Total elapsed time", re.IGNORECASE), 60

@@ -6,12 +6,10 @@ import re
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.readers.text import NUMBER, number
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 _STRUCTURE = re.compile(r"S T R U C T U R E\s+(\d+)")
 _TABLE = re.compile(r"(?:H/I )?(ADDED MASS|DAMPING)(?: FOR FORCE ON STR# ?(\d+))?")

@@ -12,7 +12,6 @@ from typing import Any
 
 import h5py
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.coordinates import unique_names
@@ -20,10 +19,9 @@ from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import six_of_each
 from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
+from hydrodae.support.arrays import Array
 from hydrodae.support.damaged import opened
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 #: Codes whose A_inf is an estimate of BEMIO: the mean over the lower part of its own grid.
 ESTIMATED_BY_BEMIO = ("NEMOH", "CAPYTAINE")
 

@@ -22,8 +22,8 @@ from hydrodae.hdb.labels import DOFS
 from hydrodae.hdb.readers.capytaine_statics import attach_bodies, text
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.relations.dispersion import frequency
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 FREQUENCY_AXES = ("omega", "period", "freq", "wavenumber", "wavelength")
 FORCES = {
     "froude_krylov": "Froude_Krylov_force",

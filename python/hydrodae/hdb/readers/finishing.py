@@ -9,8 +9,9 @@ from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.tables import Body
 from hydrodae.hdb.labels import bodies_of
-from hydrodae.hdb.readers.source import TABLES, Array, Complex, SourceData, sha256
+from hydrodae.hdb.readers.source import TABLES, SourceData, sha256
 from hydrodae.hdb.relations import infinity
+from hydrodae.support.arrays import Array, Complex
 from hydrodae.support.version import version
 
 #: Halves of A or B further apart, over the diagonal, are no noise: a number is garbled.

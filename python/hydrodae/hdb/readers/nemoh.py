@@ -11,7 +11,6 @@ import re
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.coordinates import unique_names
@@ -23,9 +22,8 @@ from hydrodae.hdb.readers.mesh_beside import statics_of_mesh
 from hydrodae.hdb.readers.nemoh_cal import CalBody, NemohCal, read_cal
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.support.arrays import Array, Complex
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 Mode = tuple[int, int]  # body, degree of freedom
 
 _MOTION = re.compile(r"body\s+(\d+)\s+in\s+DoF\s+(\d+)", re.IGNORECASE)

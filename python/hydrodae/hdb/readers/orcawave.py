@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.coordinates import unique_names
@@ -27,9 +26,8 @@ from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
 from hydrodae.hdb.readers.symmetric import mirrored_forces, turned_forces
 from hydrodae.hdb.readers.text import line_of, read_text
 from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.support.arrays import Array, Complex
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 #: Positive senses that agree with right-handed axes, x forward, z up; others change the sign.
 SENSES = {
     "SurgePositive": "forward",

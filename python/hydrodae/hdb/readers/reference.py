@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
@@ -12,7 +11,6 @@ from hydrodae.hdb.readers.nemoh_hydrostatics import FileHydrostatics
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.relations.dispersion import wavenumber
 
-Array = NDArray[np.float64]
 #: Largest k times size of a body for which the long-wave moment is taken.
 LONGEST = 0.1
 #: Difference of K55, over the size of its parts, that the point found may leave.

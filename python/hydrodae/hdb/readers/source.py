@@ -14,10 +14,7 @@ from hydrodae.hdb.database.extra import SourceTable
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import Label, read_labels
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
-
+from hydrodae.support.arrays import Array, Complex
 
 #: What a source holds of each frequency.
 TABLES = ("added_mass", "radiation_damping", "froude_krylov", "diffraction", "excitation")

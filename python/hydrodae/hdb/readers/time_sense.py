@@ -16,7 +16,6 @@ from collections.abc import Mapping
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
@@ -24,8 +23,8 @@ from hydrodae.hdb.labels import bodies_of
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.hdb.relations.noise import scatter
+from hydrodae.support.arrays import Complex
 
-Complex = NDArray[np.complex128]
 #: So many of the lowest frequencies are looked at.
 LONGEST = 10
 #: Force over its noise from which its phase says anything.

@@ -10,7 +10,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.coordinates import unique_names
@@ -26,9 +25,8 @@ from hydrodae.hdb.readers.wamit_control import Control, beside, mesh_of, read_co
 from hydrodae.hdb.readers.wamit_listing import is_listing, read_listing
 from hydrodae.hdb.readers.wamit_settled import at_infinity, first_column, settled
 from hydrodae.hdb.relations.depth import depth_of_bodies
+from hydrodae.support.arrays import Array, Complex
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 FORCE_ROW = "period, heading, mode, modulus, phase, real and imaginary part"
 SUFFIXES = (".1", ".2", ".3", ".3fk", ".3sc", ".hst", ".pot", ".cfg", ".mmx", ".out", ".frc")
 

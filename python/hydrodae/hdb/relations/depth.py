@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
 from hydrodae.hdb.relations.dispersion import group_velocity, wavenumber
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Depths over the longest deep-water wave that are tried: others change nothing.
 SHALLOWEST, DEEPEST, STEPS = 1e-3, 2.0, 400
 #: Largest rms error of the relation with which a depth is given, and what is added to the least.

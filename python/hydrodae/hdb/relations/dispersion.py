@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 def wavenumber(omega: ArrayLike, depth: float, gravity: float) -> NDArray[np.float64]:

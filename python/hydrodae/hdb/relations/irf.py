@@ -23,8 +23,7 @@ from scipy.interpolate import CubicSpline, PchipInterpolator
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.relations.tails import fit_tail, no_tail, tail_cosine, tail_kramers_kronig
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 BAND_FROM = 0.3  # A_inf: least squares over w > BAND_FROM w_max
 #: Terms of a series for |z| < 1: z^17 / 17! is below rounding.

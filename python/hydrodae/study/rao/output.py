@@ -9,19 +9,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.linear import Response
 from hydrodae.study.rao.text import NOTHING, coordinates, short_name
 from hydrodae.support import outputs
+from hydrodae.support.arrays import Array
 from hydrodae.support.units import displayed
 
 if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 
 #: Endings of the files that `write` knows.
 CSV, NETCDF = (".csv",), (".nc", ".h5", ".hdf5")

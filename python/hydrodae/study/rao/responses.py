@@ -9,18 +9,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.case.case import CaseLike
 from hydrodae.errors import CaseError
 from hydrodae.linear import LinearModel, Mode, Response
 from hydrodae.study.rao import output, text
 from hydrodae.study.rao.regular_waves import Harmonic, time_domain
+from hydrodae.support.arrays import Array
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 
 FREQUENCIES = 400
 

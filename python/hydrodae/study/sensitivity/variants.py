@@ -15,11 +15,11 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.kernels import memory_length
 from hydrodae.hdb.relations import irf
+from hydrodae.support.arrays import Array
 
 if TYPE_CHECKING:
     from hydrodae.hdb.memory import ExponentialMemory
 
-Array = NDArray[np.float64]
 STEPS, RANGES, LENGTHS = (2, 4), (0.75, 0.5), (1.0, 0.5, 0.25, 0.125)
 
 

@@ -21,12 +21,10 @@ from hydrodae.study.spectral.linearise import all_notes, dampings, mean_powers, 
 from hydrodae.study.spectral.output import write
 from hydrodae.study.spectral.seeds import Seeds, comparison, time_domain
 from hydrodae.study.spectral.solve import equivalents
+from hydrodae.support.arrays import Array, Complex
 
 if TYPE_CHECKING:
     import xarray
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)

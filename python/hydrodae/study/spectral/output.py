@@ -8,15 +8,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.study.rao.output import CONVENTION, write_either
+from hydrodae.support.arrays import Array, Complex
 
 if TYPE_CHECKING:
     import xarray
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 class Found(Protocol):

@@ -8,7 +8,8 @@ import numpy as np
 
 from hydrodae.results import Results
 from hydrodae.study.stability import truths
-from hydrodae.study.stability.scene import SMALLEST, Array, Scene
+from hydrodae.study.stability.scene import SMALLEST, Scene
+from hydrodae.support.arrays import Array
 
 Table = dict[str, Any]
 DOWN_Y = [0.0, -1.0, 0.0]

@@ -10,7 +10,8 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from hydrodae.results import Results
-from hydrodae.study.stability.scene import Array, Scene
+from hydrodae.study.stability.scene import Scene
+from hydrodae.support.arrays import Array
 
 GRAVITY = 9.81
 START_SPEED_2 = 3.5 * GRAVITY  #: square of the speed of the bob at the bottom [m2/s2]
