@@ -56,7 +56,7 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
     judged = band or felt_band(database)
     return CheckReport(
         [
-            _judged(database, judged, given=band is not None),
+            _judged(judged, given=band is not None),
             *([] if not modes else [_unchecked(modes)]),
             *_grid(database),
             *heading_findings(database, judged),
@@ -82,7 +82,7 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
     )
 
 
-def _judged(db: HydroDatabase, band: Band, *, given: bool) -> Finding:
+def _judged(band: Band, *, given: bool) -> Finding:
     how = "as given" if given else "what the device feels of a wind sea"
     text = f"errors of A, B and F count in {band[0]:.3g}..{band[1]:.3g} rad/s, {how} (--band)"
     return Finding("info", "band", text, value=band[1])
