@@ -187,10 +187,6 @@ def hydrostatics(panels: ArrayLike, point: ArrayLike) -> Hydrostatics:
     point : (3,) array
         Reference point [m] of the waterplane moments.
 
-    Returns
-    -------
-    Hydrostatics
-
     Raises
     ------
     DatabaseError

@@ -49,10 +49,6 @@ _STATED = {
 def read_listing(path: Path) -> SourceData:
     """Read a listing.
 
-    Returns
-    -------
-    SourceData
-
     Raises
     ------
     DatabaseError

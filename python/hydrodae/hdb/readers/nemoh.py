@@ -44,10 +44,6 @@ def read_nemoh(path: Path) -> SourceData:
     path : Path
         The folder that holds `Nemoh.cal`, or that file.
 
-    Returns
-    -------
-    SourceData
-
     Raises
     ------
     DatabaseError

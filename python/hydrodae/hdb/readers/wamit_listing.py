@@ -66,10 +66,6 @@ def is_listing(path: Path) -> bool:
 def read_listing(path: Path) -> Listing:
     """Read the tables of added mass, damping and exciting forces.
 
-    Returns
-    -------
-    Listing
-
     Raises
     ------
     DatabaseError

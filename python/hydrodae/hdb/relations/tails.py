@@ -51,10 +51,6 @@ def fit_tail(omega: ArrayLike, damping: ArrayLike) -> Tail:
         Frequencies [rad/s].
     damping : (nw, m) array
         B(w).
-
-    Returns
-    -------
-    Tail
     """
     w = np.asarray(omega, dtype=float)
     b = np.asarray(damping, dtype=float)
