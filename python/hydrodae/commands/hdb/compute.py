@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import sys
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
-from time import monotonic
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,9 +26,6 @@ from hydrodae.hdb.preparation import computing, pipeline
 from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.support.arrays import Array
 from hydrodae.support.progress import StageLine
-
-#: Wall time between two lines of progress [s].
-INTERVAL = 5.0
 
 
 def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -225,7 +221,7 @@ def _compute_one(
             bodies,
             settings,
             work,
-            progress=None if args.quiet else _Progress(),
+            progress=None if args.quiet else _Frequencies(stage),
             stage=None if args.quiet else stage,
         )
     print(database.summary())
@@ -354,24 +350,16 @@ def _panel_size(coarse: NDArray[np.float64], settings: bem.Settings) -> float:
     return min(2.0 * np.pi / float(k), float(np.cbrt(volume))) / 8.0
 
 
-class _Progress:
-    """A line on stderr every few seconds, and at the end."""
+class _Frequencies:
+    """Shows how many frequencies are done, and the time that the others will take."""
 
-    def __init__(self) -> None:
-        self._last = monotonic()
+    def __init__(self, show: Callable[[str], None]) -> None:
+        self._show = show
         self._before: int | None = None
 
     def __call__(self, done: int, total: int, omega: float, spent: float) -> None:
         if self._before is None:
-            self._before = done - 1
-        now = monotonic()
-        if now - self._last < INTERVAL and done < total:
-            return
-        self._last = now
+            self._before = done - 1  # of an earlier run
         left = spent / (done - self._before) * (total - done)
-        print(
-            f"{done} of {total} frequencies, w = {omega:.4g} rad/s, {spent:.0f} s, "
-            f"about {left:.0f} s to go",
-            file=sys.stderr,
-            flush=True,
-        )
+        at = f"{done} of {total} frequencies, w = {omega:.4g} rad/s"
+        self._show(f"{at}, about {left:.0f} s to go")
