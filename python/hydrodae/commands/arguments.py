@@ -34,6 +34,17 @@ def parse_numbers(what: str, text: str, count: int) -> list[float]:
     return values
 
 
+def parse_positive(option: str, text: str) -> list[float]:
+    """Read numbers > 0 separated by commas; raise CaseError if they are none."""
+    try:
+        values = [float(v) for v in text.split(",")]
+    except ValueError:
+        values = [0.0]
+    if not all(0.0 < value < np.inf for value in values):
+        raise CaseError(f"{option} {text!r}: expected numbers > 0 with commas")
+    return values
+
+
 def heading_deg(text: str) -> float:
     """Read one direction of travel [deg], -360 to 360, as `type` of an argument."""
     try:

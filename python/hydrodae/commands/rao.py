@@ -8,7 +8,7 @@ import numpy as np
 
 from hydrodae.case import Case
 from hydrodae.case.case import parse_assignment
-from hydrodae.commands.arguments import heading_deg
+from hydrodae.commands.arguments import heading_deg, parse_positive
 from hydrodae.commands.machine import of_rao, print_json
 from hydrodae.commands.options import add_case, add_json
 from hydrodae.errors import CaseError
@@ -71,9 +71,8 @@ def run(arguments: argparse.Namespace) -> int:
         print(opening)
     if arguments.output:
         output.check_output(arguments.output)
-    found = rao(
-        model, periods=_periods(arguments.periods), heading=float(np.radians(arguments.heading))
-    )
+    periods = arguments.periods and parse_positive("--periods", arguments.periods)
+    found = rao(model, periods=periods, heading=float(np.radians(arguments.heading)))
     written = [f"written: {found.write(arguments.output)}"] if arguments.output else []
     if arguments.picture:
         written.append(f"picture: {save(found.draw(), arguments.picture)}")
@@ -92,15 +91,3 @@ def run(arguments: argparse.Namespace) -> int:
     if model.case.scene.wave_names:
         print("\n" + found.sea_table())
     return 0
-
-
-def _periods(text: str | None) -> list[float] | None:
-    if text is None:
-        return None
-    try:
-        values = [float(word) for word in text.split(",")]
-    except ValueError:
-        raise CaseError(f"--periods {text!r}: expected numbers with commas") from None
-    if not all(value > 0.0 for value in values):
-        raise CaseError(f"--periods {text!r}: expected numbers > 0 [s]")
-    return values

@@ -6,12 +6,11 @@ import argparse
 
 import numpy as np
 
-from hydrodae.commands.arguments import given_case, heading_deg
+from hydrodae.commands.arguments import given_case, heading_deg, parse_positive
 from hydrodae.commands.options import add_case
 from hydrodae.errors import CaseError
 from hydrodae.study.sensitivity import sensitivity
 from hydrodae.study.sensitivity.output import table, write
-from hydrodae.support.arrays import Array
 
 
 def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -46,31 +45,21 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def run(args: argparse.Namespace) -> int:
     """Print the table; returns 0."""
     case = given_case(args)
-    band = None if args.band is None else _numbers("--band", args.band)
-    if band is not None and band.size != 2:
+    band = args.band and parse_positive("--band", args.band)
+    if band is not None and len(band) != 2:
         raise CaseError(f"--band {args.band!r}: expected LO,HI")
-    states = [] if args.states is None else _numbers("--states", args.states).astype(int).tolist()
+    states = [] if args.states is None else parse_positive("--states", args.states)
     rows = sensitivity(
         case,
         args.result,
-        periods=[] if args.periods is None else _numbers("--periods", args.periods).tolist(),
+        periods=[] if args.periods is None else parse_positive("--periods", args.periods),
         channels=args.channel,
         heading=float(np.radians(args.heading)),
-        states=states,
-        band=band,
+        states=list(map(int, states)),
+        band=None if band is None else np.array(band),
     )
     print(table(case.title, rows))
     if args.output:
         for path in write(args.output, case.title, rows):
             print(f"written: {path}")
     return 0
-
-
-def _numbers(option: str, text: str) -> Array:
-    try:
-        values = np.array([float(v) for v in text.split(",")])
-    except ValueError:
-        values = np.zeros(1)
-    if not np.all(np.isfinite(values)) or not np.all(values > 0.0):
-        raise CaseError(f"{option} {text!r}: expected numbers > 0 with commas")
-    return values
