@@ -7,12 +7,12 @@ from collections.abc import Callable
 from typing import Any, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hydrodae.support.arrays import Array
 from hydrodae.wecsim.m_text import NotEvaluated, Quoted, Token
 
 #: A number or an array of them (two axes), a string, or a list (of a cell array).
-Value: TypeAlias = "float | str | NDArray[np.float64] | list[Any]"
+Value: TypeAlias = "float | str | Array | list[Any]"
 
 _CONSTANTS = {
     "pi": math.pi,

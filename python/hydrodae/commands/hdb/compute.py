@@ -9,7 +9,6 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from hydrodae.commands.arguments import parse_headings, parse_numbers, parse_point
@@ -296,7 +295,7 @@ def _lengths(name: str, words: dict[str, str]) -> dict[str, float]:
 
 def _panels(
     name: str, first: str, words: dict[str, str], size: float | None, settings: bem.Settings
-) -> NDArray[np.float64]:
+) -> Array:
     """Panels of a shape by formula, of a profile, or of a mesh file."""
     is_file = Path(first).is_file() or (bool(Path(first).suffix) and first not in shapes.SHAPES)
     if first == "revolution":
@@ -316,9 +315,7 @@ def _panels(
     return np.asarray(panels + _shift(name, words, "a mesh takes x, y, z, mirror and scale only"))
 
 
-def _turned(
-    name: str, words: dict[str, str], size: float | None, settings: bem.Settings
-) -> NDArray[np.float64]:
+def _turned(name: str, words: dict[str, str], size: float | None, settings: bem.Settings) -> Array:
     """Surface of revolution of the profile in a file."""
     if "profile" not in words:
         raise CaseError(f"--body {name}: revolution needs profile=FILE, points r z [m] a line")
@@ -330,7 +327,7 @@ def _turned(
     return np.asarray(revolution(size, profile) + shift)
 
 
-def _shift(name: str, words: dict[str, str], known: str) -> NDArray[np.float64]:
+def _shift(name: str, words: dict[str, str], known: str) -> Array:
     lengths = _lengths(name, words)
     shift = [lengths.pop(axis, 0.0) for axis in ("x", "y", "z")]
     if lengths:
@@ -343,7 +340,7 @@ def _size(shape: str, lengths: dict[str, float], settings: bem.Settings) -> floa
     return _panel_size(shapes.build(shape, coarse, lengths), settings)
 
 
-def _panel_size(coarse: NDArray[np.float64], settings: bem.Settings) -> float:
+def _panel_size(coarse: Array, settings: bem.Settings) -> float:
     """An eighth of the shortest wave or of the cube root of the volume, the smaller one [m]."""
     volume = shapes.hydrostatics(coarse, np.zeros(3)).displaced_volume
     k = wavenumber(settings.omega[-1:], settings.water_depth, settings.gravity)[0]

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TypedDict
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.commands.arguments import parse_band, parse_numbers
 from hydrodae.errors import CaseError
@@ -20,6 +19,7 @@ from hydrodae.hdb.memory.verdict import CHECKS
 from hydrodae.hdb.preparation import fitting as prepare
 from hydrodae.hdb.preparation import pipeline
 from hydrodae.study.band import working_band
+from hydrodae.support.arrays import Array
 from hydrodae.support.progress import StageLine
 
 DONE, BAD_DATA = 0, 2
@@ -54,7 +54,7 @@ def add_grid_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-o", "--output", metavar="FILE", default="hydro.h5")
 
 
-def omega_of(args: argparse.Namespace) -> NDArray[np.float64]:
+def omega_of(args: argparse.Namespace) -> Array:
     """Return the frequencies of --omega [rad/s].
 
     Raises

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.labels import DOFS, bodies_of, read_labels
+from hydrodae.support.arrays import Array
 
 GROUPS = {"all": DOFS, "planar": ("surge", "heave", "pitch"), "lateral": ("sway", "roll", "yaw")}
 
@@ -124,15 +125,15 @@ def _no_coordinates(item: str, labels: Sequence[str]) -> str:
     return f"no coordinate {item!r} in the database{nearest(item, [*labels, *shorthands])}"
 
 
-def skew(r: ArrayLike) -> NDArray[np.float64]:
+def skew(r: ArrayLike) -> Array:
     """Return the matrix (3, 3) of the cross product r x."""
     x, y, z = np.asarray(r, dtype=float)
     return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
 
 
 def transport(
-    labels: Sequence[str], shifts: Mapping[str, NDArray[np.float64]], owner: str = "the database"
-) -> NDArray[np.float64]:
+    labels: Sequence[str], shifts: Mapping[str, Array], owner: str = "the database"
+) -> Array:
     """Matrix X of a change of reference points: U_old = X U_new, F_new = X^T F_old.
 
     Per body X = [[1, -r x], [0, 1]], r = old point - new point (v_old = v_new + w x r).

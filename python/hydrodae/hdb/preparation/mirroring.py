@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
@@ -14,7 +13,7 @@ from hydrodae.hdb.database.all_round import EQUAL, closed
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.labels import rigid
 from hydrodae.hdb.readers.symmetric import ACROSS, ALONG, SAME, absent
-from hydrodae.support.arrays import Array
+from hydrodae.support.arrays import Array, Complex
 
 TURN = 2.0 * np.pi
 #: Each plane: the component of a point normal to it, the signs of the six, and the heading of a
@@ -131,7 +130,7 @@ def _with_images(database: HydroDatabase, plane: str) -> HydroDatabase:
     if heading[0] > np.pi:
         heading = heading - TURN
 
-    def both(force: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    def both(force: Complex) -> Complex:
         return np.concatenate([force, force[:, new] * sign], axis=1)[:, order]
 
     return closed(

@@ -22,7 +22,7 @@ from hydrodae.hdb.labels import DOFS
 from hydrodae.hdb.readers.capytaine_statics import attach_bodies, text
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.relations.dispersion import frequency
-from hydrodae.support.arrays import Array
+from hydrodae.support.arrays import Array, Complex
 
 FREQUENCY_AXES = ("omega", "period", "freq", "wavenumber", "wavelength")
 FORCES = {
@@ -219,7 +219,7 @@ def _matrix(path: Path, ds: xr.Dataset, name: str, dofs: list[str]) -> Array:
 
 def _force(
     path: Path, ds: xr.Dataset, name: str, dofs: list[str], order: NDArray[np.intp]
-) -> NDArray[np.complex128] | None:
+) -> Complex | None:
     """Return a force as (nw, nh, n) in the project convention."""
     if name not in ds:
         return None

@@ -15,7 +15,7 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.kernels import memory_length
 from hydrodae.hdb.relations import irf
-from hydrodae.support.arrays import Array
+from hydrodae.support.arrays import Array, Complex
 
 if TYPE_CHECKING:
     from hydrodae.hdb.memory import ExponentialMemory
@@ -96,7 +96,7 @@ def variants(
         yield "no coupling of bodies", database.without_coupling()
 
 
-def _fourier(time: Array, values: Array, omega: Array) -> NDArray[np.complex128]:
+def _fourier(time: Array, values: Array, omega: Array) -> Complex:
     """Return int_0^T f(t) e^{-iwt} dt, (nw, m), of the cubic spline of f, integrated exactly."""
     spline = CubicSpline(time, values)
     z = -1j * omega
