@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import argparse
 import dataclasses
 
 import numpy as np
 import pytest
+from tests.python.hdb_command import call
 
 from hydrodae import hdb
-from hydrodae.commands import hdb as command
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.bem import run as bem
 from hydrodae.hdb.bem import shapes
@@ -17,12 +16,6 @@ from hydrodae.hdb.bem.cutting import immersed
 
 cpt = pytest.importorskip("capytaine", reason="needs the extra bem")
 SETTINGS = bem.Settings(omega=np.array([0.4, 0.8, 1.2, 1.6]), rho=1000.0)
-
-
-def call(*words):
-    parser = argparse.ArgumentParser()
-    command.add_arguments(parser)
-    return command.run(parser.parse_args([str(w) for w in words]))
 
 
 def hemisphere(size=1.2, **place):
