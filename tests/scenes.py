@@ -110,12 +110,7 @@ def driven(
     """Return a body whose one coordinate follows a drive with these keys."""
     mover = table("body", name=body, motion=[coordinate], mass=mass, center_of_gravity=at)
     return mover + table(
-        "constraint",
-        name="moves",
-        type="coordinate",
-        body=body,
-        coordinate=coordinate,
-        drive=drive,
+        "constraint", name="moves", type="coordinate", body=body, coordinate=coordinate, drive=drive
     )
 
 
@@ -145,10 +140,7 @@ def cart(
 
 
 def controlled_cart(
-    type: str,
-    keys: str = "",
-    inputs: str = '"joints/slide/displacement_rate"',
-    period: float = 0.1,
+    type: str, keys: str = "", inputs: str = '"joints/slide/displacement_rate"', period: float = 0.1
 ) -> str:
     """Return a mass on a spring whose take-off `pto` a controller `pi` of this type loads."""
     return (
@@ -173,12 +165,7 @@ def bouncing_ball(restitution: float, title: str = "") -> str:
         title=title,
     )
     floor = table(
-        "constraint",
-        name="floor",
-        type="stop",
-        joint="guide",
-        lower=-1.0,
-        restitution=restitution,
+        "constraint", name="floor", type="stop", joint="guide", lower=-1.0, restitution=restitution
     )
     return guide + floor
 

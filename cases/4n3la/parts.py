@@ -146,10 +146,7 @@ def add_moorings(scene: hydrodae.Scene, layout: Layout) -> None:
 
 
 def device(
-    layout: Layout,
-    directory: str | Path,
-    stiffness: float = STIFFNESS,
-    damping: float = DAMPING,
+    layout: Layout, directory: str | Path, stiffness: float = STIFFNESS, damping: float = DAMPING
 ) -> hydrodae.Scene:
     """Scene without waves and times.
 

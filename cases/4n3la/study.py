@@ -138,10 +138,7 @@ def gap(results: Results, layout: Layout) -> float:
 
 
 def power(
-    results: Results,
-    layout: Layout,
-    stiffness: float = STIFFNESS,
-    damping: float = DAMPING,
+    results: Results, layout: Layout, stiffness: float = STIFFNESS, damping: float = DAMPING
 ) -> Array:
     """Power of the damping moments of all take-offs (nt,) [W]: what the springs lend is left out.
 

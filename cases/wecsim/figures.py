@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import tomllib
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +13,7 @@ import passive_yaw  # type: ignore[import-not-found] # stands beside this file
 import predictive  # type: ignore[import-not-found] # stands beside this file
 import ptosim  # type: ignore[import-not-found] # stands beside this file
 from of_case import (  # type: ignore[import-not-found] # stands beside this file
+    Figure,
     NoFigure,
     amplitude,
     database_of,
@@ -29,35 +29,6 @@ import hydrodae
 from hydrodae.case.contents import case_tables
 from hydrodae.results import Results
 from hydrodae.study.sweep.measures import make_measure, measure
-
-
-@dataclass
-class Figure:
-    """One quantity.
-
-    Attributes
-    ----------
-    name : str
-        Quantity with its unit.
-    ours : float
-        Of the run.
-    reference : float, optional
-        What it is compared with.
-    source : str
-        Where the reference is from.
-    """
-
-    name: str
-    ours: float
-    reference: float | None = None
-    source: str = ""
-
-    def cells(self) -> list[str]:
-        """Cells of the table: name, ours, reference, difference."""
-        if self.reference is None:
-            return [self.name, f"{self.ours:.5g}", "", ""]
-        difference = f"{100.0 * (self.ours / self.reference - 1.0):+.3f} %"
-        return [self.name, f"{self.ours:.5g}", f"{self.reference:.5g} ({self.source})", difference]
 
 
 def make(example: dict[str, Any], results: Results, case: Path, folder: Path) -> Figure | None:

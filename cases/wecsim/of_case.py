@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,35 @@ import numpy as np
 import hydrodae
 from hydrodae.case.contents import case_tables
 from hydrodae.results import Results
+
+
+@dataclass
+class Figure:
+    """One quantity.
+
+    Attributes
+    ----------
+    name : str
+        Quantity with its unit.
+    ours : float
+        Of the run.
+    reference : float, optional
+        What it is compared with.
+    source : str
+        Where the reference is from.
+    """
+
+    name: str
+    ours: float
+    reference: float | None = None
+    source: str = ""
+
+    def cells(self) -> list[str]:
+        """Cells of the table: name, ours, reference, difference."""
+        if self.reference is None:
+            return [self.name, f"{self.ours:.5g}", "", ""]
+        difference = f"{100.0 * (self.ours / self.reference - 1.0):+.3f} %"
+        return [self.name, f"{self.ours:.5g}", f"{self.reference:.5g} ({self.source})", difference]
 
 
 class NoFigure(Exception):

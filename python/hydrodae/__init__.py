@@ -13,13 +13,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from hydrodae.errors import (
-    CaseError,
-    DatabaseError,
-    HydrodaeError,
-    RunInterrupted,
-    SolverError,
-)
+from hydrodae.errors import CaseError, DatabaseError, HydrodaeError, RunInterrupted, SolverError
 
 if TYPE_CHECKING:
     from hydrodae import hdb, mooring

@@ -12,9 +12,10 @@ from typing import Any
 import numpy as np
 from tests.attack import truth
 from tests.attack.family import unnamed
-from tests.attack.parts import DOWN_Y, GRAVITY, Array, Table, body, both, joint, position
+from tests.attack.parts import DOWN_Y, GRAVITY, Table, body, both, joint, position
 
 from hydrodae.study.stability import Scene
+from hydrodae.support.arrays import Array
 
 SOURCE = "DOP853, angles of the bars"
 Torque = Callable[[float, Array, Array], Array]

@@ -7,20 +7,8 @@ from typing import Any
 import numpy as np
 from tests.attack import truth
 from tests.attack.drives import Motion, functions, motion
-from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.parts import (
-    GRAVITY,
-    X,
-    Z,
-    beside,
-    body,
-    both,
-    case,
-    driven,
-    joint,
-    position,
-    stop,
-)
+from tests.attack.family import chosen, family, log_uniform, unnamed
+from tests.attack.parts import GRAVITY, X, Z, body, both, case, driven, joint, position, stop
 
 from hydrodae.study.stability import Scene
 
@@ -32,7 +20,6 @@ def _draw_ball(g: np.random.Generator) -> dict[str, Any]:
         height=log_uniform(g, 1e-3, 100.0),
         restitution=g.uniform(0.0, 0.95),
         mass=log_uniform(g, 1e-3, 1e5),
-        kind=neighbour(g),
     )
 
 
@@ -41,7 +28,7 @@ def _draw_ball(g: np.random.Generator) -> dict[str, Any]:
 @chosen(height=1.0, restitution=0.8, mass=1.0, kind="ship")
 @chosen(height=1e-3, restitution=0.6, mass=1e-3)
 @chosen(height=50.0, restitution=0.9, mass=1e4)
-def falling_ball(height: float, restitution: float, mass: float, kind: str | None = None) -> Scene:
+def falling_ball(height: float, restitution: float, mass: float) -> Scene:
     """A ball that falls onto the floor and bounces until it rests."""
     tau = float(np.sqrt(2.0 * height / GRAVITY))
     end = 1.3 * tau * (1.0 + restitution) / (1.0 - restitution) + tau
@@ -62,7 +49,7 @@ def falling_ball(height: float, restitution: float, mass: float, kind: str | Non
         joints=[joint("guide", "prismatic", "ground", "ball", [0.0, 0.0, height], Z)],
         constraints=[stop("floor", "guide", restitution, lower=-height)],
     )
-    scene = unnamed(
+    return unnamed(
         title=f"a ball dropped {height:g} m, restitution {restitution:g}",
         tables=tables,
         size=height,
@@ -71,7 +58,6 @@ def falling_ball(height: float, restitution: float, mass: float, kind: str | Non
         truth=exact,
         measured=position("ball", 2, origin=[0.0, 0.0, height]),
     )
-    return beside(scene, kind)
 
 
 def _moved(f: Motion, amplitude: float, period: float, **more: Any) -> truth.Truth:
@@ -97,7 +83,6 @@ def _draw_table(g: np.random.Generator) -> dict[str, Any]:
         period=log_uniform(g, 0.2, 5.0),
         shake=g.uniform(0.2, 1.3),
         restitution=g.uniform(0.0, 0.8),
-        kind=neighbour(g),
     )
 
 
@@ -107,9 +92,7 @@ def _draw_table(g: np.random.Generator) -> dict[str, Any]:
 @chosen(how="python", period=2.0, shake=0.4, restitution=0.7)
 @chosen(how="sine", period=1.0, shake=0.8, restitution=0.0, kind="ship")
 @chosen(how="table", period=1.5, shake=0.3, restitution=0.4)
-def shaken_table(
-    how: str, period: float, shake: float, restitution: float, kind: str | None = None
-) -> Scene:
+def shaken_table(how: str, period: float, shake: float, restitution: float) -> Scene:
     """A ball on a table that is shaken with `shake` g."""
     w = 2.0 * np.pi / period
     amplitude = shake * GRAVITY / w**2
@@ -131,7 +114,7 @@ def shaken_table(
             stop("top", "guide", restitution, lower=-height),
         ],
     )
-    scene = unnamed(
+    return unnamed(
         title=f"a ball on a table shaken with {shake:g} g",
         tables=tables,
         size=amplitude,
@@ -141,7 +124,6 @@ def shaken_table(
         measured=both(position("table", 2), position("ball", 2, origin=[0.0, 0.0, height])),
         drives=functions("motor", how, f),
     )
-    return beside(scene, kind)
 
 
 def _draw_box(g: np.random.Generator) -> dict[str, Any]:
@@ -151,7 +133,6 @@ def _draw_box(g: np.random.Generator) -> dict[str, Any]:
         amplitude=log_uniform(g, 0.01, 2.0),
         gap=g.uniform(0.3, 2.0),
         restitution=g.uniform(0.0, 0.8),
-        kind=neighbour(g),
     )
 
 
@@ -159,14 +140,7 @@ def _draw_box(g: np.random.Generator) -> dict[str, Any]:
 @chosen(how="sine", period=2.0, amplitude=0.5, gap=0.6, restitution=0.5)
 @chosen(how="table", period=3.0, amplitude=0.2, gap=1.0, restitution=0.2)
 @chosen(how="sine", period=2.0, amplitude=0.5, gap=0.8, restitution=0.0, kind="barge")
-def driven_box(
-    how: str,
-    period: float,
-    amplitude: float,
-    gap: float,
-    restitution: float,
-    kind: str | None = None,
-) -> Scene:
+def driven_box(how: str, period: float, amplitude: float, gap: float, restitution: float) -> Scene:
     """A block that slides freely between the walls of a driven box (gap in amplitudes)."""
     w, room = 2.0 * np.pi / period, gap * amplitude
     end = 4.0 * period
@@ -185,7 +159,7 @@ def driven_box(
             stop("walls", "guide", restitution, lower=-room, upper=room),
         ],
     )
-    scene = unnamed(
+    return unnamed(
         title=f"a block in a box driven by a {how}",
         tables=tables,
         size=amplitude,
@@ -195,7 +169,6 @@ def driven_box(
         measured=both(position("box", 0), position("block", 0)),
         drives=functions("motor", how, f),
     )
-    return beside(scene, kind)
 
 
 def _draw_balls(g: np.random.Generator) -> dict[str, Any]:
@@ -204,7 +177,6 @@ def _draw_balls(g: np.random.Generator) -> dict[str, Any]:
         height=log_uniform(g, 0.01, 10.0),
         apart=g.uniform(0.01, 0.5),
         restitution=g.uniform(0.4, 1.0),
-        kind=neighbour(g),
     )
 
 
@@ -213,11 +185,7 @@ def _draw_balls(g: np.random.Generator) -> dict[str, Any]:
 @chosen(masses=(1.0, 3.0), height=0.1, apart=0.3, restitution=0.9)
 @chosen(masses=(2.0, 1.0), height=1.0, apart=0.1, restitution=0.7, kind="ship")
 def two_balls(
-    masses: tuple[float, float],
-    height: float,
-    apart: float,
-    restitution: float,
-    kind: str | None = None,
+    masses: tuple[float, float], height: float, apart: float, restitution: float
 ) -> Scene:
     """Two balls one above the other, dropped onto the floor, over their first eight impacts."""
     m, n = masses
@@ -247,7 +215,7 @@ def two_balls(
             stop("touch", "between", restitution, lower=-space),
         ],
     )
-    scene = unnamed(
+    return unnamed(
         title="two balls one above the other",
         tables=tables,
         size=height,
@@ -256,7 +224,6 @@ def two_balls(
         truth=exact,
         measured=both(position("low", 2), position("high", 2, origin=[0.0, 0.0, space])),
     )
-    return beside(scene, kind)
 
 
 def _two_balls(

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.parts import GRAVITY, beside, body, case, joint, position
+from tests.attack.family import chosen, family, log_uniform, unnamed
+from tests.attack.parts import GRAVITY, body, case, joint, position
 
 from hydrodae.study.stability import Scene, truths
 
@@ -28,7 +28,6 @@ def _draw_pendulum(g: np.random.Generator) -> dict[str, Any]:
         share=g.uniform(0.05, 2.0),
         lever=g.uniform(0.3, 1.5),
         angle=log_uniform(g, 1e-3, 2.5),
-        kind=neighbour(g),
     )
 
 
@@ -39,7 +38,7 @@ def _draw_pendulum(g: np.random.Generator) -> dict[str, Any]:
 @chosen(length=1e-3, mass=1e-6, share=0.9, lever=1.0, angle=1e-3)
 @chosen(length=10.0, mass=1e4, share=0.95, lever=1.02, angle=1.0, kind="ship")
 def submerged_pendulum(
-    length: float, mass: float, share: float, lever: float, angle: float, kind: str | None = None
+    length: float, mass: float, share: float, lever: float, angle: float
 ) -> Scene:
     """A bar on a hinge under water, that swings for 20 periods about hanging or standing.
 
@@ -74,7 +73,7 @@ def submerged_pendulum(
     turns = joint("hinge", "revolute", "ground", "bar", hinge, [0.0, 1.0, 0.0])
     tables = case([bar], end, joints=[turns], samples=410)
     tables["environment"] = {"water_density": WATER}
-    scene = unnamed(
+    return unnamed(
         title=f"a submerged bar of {length:g} m, {share:g} of its weight lifted",
         tables=tables,
         size=length * min(2.0, angle),
@@ -83,4 +82,3 @@ def submerged_pendulum(
         truth=place,
         measured=position("bar", 0, 2, origin=hinge + arm),
     )
-    return beside(scene, kind)

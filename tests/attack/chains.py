@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 from tests.attack import truth
 from tests.attack.bars import SOURCE, Chain
-from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.parts import GRAVITY, Array, beside, case, stop
+from tests.attack.family import chosen, family, log_uniform, unnamed
+from tests.attack.parts import GRAVITY, case, stop
 
 from hydrodae.study.stability import Scene
+from hydrodae.support.arrays import Array
 
 
 def _drawn(g: np.random.Generator, most: int = 4) -> dict[str, Any]:
@@ -30,7 +31,6 @@ def _draw_stop(g: np.random.Generator) -> dict[str, Any]:
         room=list(g.uniform(0.1, 0.8, 2)),
         restitution=g.uniform(0.0, 0.9),
         end=g.uniform(1.0, 3.0),
-        kind=neighbour(g),
     )
 
 
@@ -86,7 +86,6 @@ def chain_stop(
     end: float,
     rates: list[float] | None = None,
     gravity: float = GRAVITY,
-    kind: str | None = None,
 ) -> Scene:
     """A chain one of whose hinges has stops on both sides of where it starts."""
     chain = Chain(lengths, masses, gravity)
@@ -155,13 +154,11 @@ def chain_stop(
         gravity=gravity,
         constraints=[stop("stops", f"bar_h{hinge + 1}", restitution, **bounds)],
     )
-    return beside(chain.scene(f"{n} bars, stops at hinge {hinge + 1}", tables, exact), kind)
+    return chain.scene(f"{n} bars, stops at hinge {hinge + 1}", tables, exact)
 
 
 def _draw_damped(g: np.random.Generator) -> dict[str, Any]:
-    return _drawn(g) | dict(
-        damping=log_uniform(g, 0.05, 1.0), end=g.uniform(3.0, 8.0), kind=neighbour(g)
-    )
+    return _drawn(g) | dict(damping=log_uniform(g, 0.05, 1.0), end=g.uniform(3.0, 8.0))
 
 
 @family("power take-offs", _draw_damped)
@@ -169,12 +166,7 @@ def _draw_damped(g: np.random.Generator) -> dict[str, Any]:
     lengths=[1.0, 0.7, 0.5], masses=[2.0, 1.0, 1.0], angles=[1.5, 1.0, 2.5], damping=0.3, end=6.0
 )
 def damped_chain(
-    lengths: list[float],
-    masses: list[float],
-    angles: list[float],
-    damping: float,
-    end: float,
-    kind: str | None = None,
+    lengths: list[float], masses: list[float], angles: list[float], damping: float, end: float
 ) -> Scene:
     """A chain with a damper in each hinge."""
     chain = Chain(lengths, masses)
@@ -191,14 +183,14 @@ def damped_chain(
         for k in range(chain.n)
     ]
     tables = case(bodies, end, joints=joints, forces=forces, samples=300)
-    return beside(chain.scene(f"{chain.n} bars with dampers", tables, exact), kind)
+    return chain.scene(f"{chain.n} bars with dampers", tables, exact)
 
 
 def _draw_beside(g: np.random.Generator) -> dict[str, Any]:
     return {"size": log_uniform(g, 1e-4, 1e4), "end": g.uniform(5.0, 20.0)}
 
 
-@family("unconnected mechanisms", _draw_beside)
+@family("unconnected mechanisms", _draw_beside, alone=True)
 @chosen(size=1e-3, end=60.0)
 @chosen(size=1e3, end=30.0)
 def chains_beside(size: float, end: float) -> Scene:
@@ -226,24 +218,21 @@ def chains_beside(size: float, end: float) -> Scene:
 
 def _draw_spun(g: np.random.Generator) -> dict[str, Any]:
     return dict(
-        bars=int(g.integers(2, 7)),
-        rate=log_uniform(g, 1.0, 100.0),
-        turns=g.uniform(3.0, 20.0),
-        kind=neighbour(g),
+        bars=int(g.integers(2, 7)), rate=log_uniform(g, 1.0, 100.0), turns=g.uniform(3.0, 20.0)
     )
 
 
 @family("turns", _draw_spun)
 @chosen(bars=2, rate=30.0, turns=24.0)
 @chosen(bars=6, rate=10.0, turns=8.0, kind="barge")
-def spun_chain(bars: int, rate: float, turns: float, kind: str | None = None) -> Scene:
+def spun_chain(bars: int, rate: float, turns: float) -> Scene:
     """A chain that turns in the plane without gravity, a bit bent."""
     chain = Chain([0.3] * bars, [1.0] * bars, 0.0)
     angles, spin = np.linspace(1.0, 1.3, bars), np.full(bars, rate)
     exact = truth.integrated(chain.rates(), np.r_[angles, spin], chain.place, longest=0.3 / rate)
     bodies, joints = chain.parts(angles, spin)
     tables = case(bodies, 2.0 * np.pi * turns / rate, joints=joints, samples=300, gravity=0.0)
-    return beside(chain.scene(f"{bars} bars that spin", tables, exact, 0.3 / rate), kind)
+    return chain.scene(f"{bars} bars that spin", tables, exact, 0.3 / rate)
 
 
 def _draw_rates(g: np.random.Generator) -> dict[str, Any]:
@@ -251,7 +240,7 @@ def _draw_rates(g: np.random.Generator) -> dict[str, Any]:
     return made | {"rates": list(g.uniform(-3.0, 3.0, len(made["lengths"])))}
 
 
-@family("start velocities", _draw_rates)
+@family("start velocities", _draw_rates, alone=True)
 @chosen(
     lengths=[1.0, 0.7, 0.5], masses=[2.0, 1.0, 1.0], angles=[0.5, 0.9, 0.2], rates=[1.0, -2.0, 3.0]
 )
@@ -276,7 +265,7 @@ def _draw_upright(g: np.random.Generator) -> dict[str, Any]:
     return {"lean": log_uniform(g, 1e-4, 1.0), "end": g.uniform(5.0, 15.0)}
 
 
-@family("long runs", _draw_upright)
+@family("long runs", _draw_upright, alone=True)
 @chosen(lean=0.5, end=15.0)
 @chosen(lean=0.2, end=3.0)
 def upright_bar(lean: float, end: float) -> Scene:

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import CubicSpline
 from tests.attack import truth
-from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.parts import GRAVITY, X, beside, body, both, case, joint, position, stop
+from tests.attack.family import chosen, family, log_uniform, unnamed
+from tests.attack.parts import GRAVITY, X, body, both, case, joint, position, stop
 
 from hydrodae.study.stability import Scene
 
@@ -23,7 +23,6 @@ def _draw_bump(g: np.random.Generator) -> dict[str, Any]:
         at=log_uniform(g, 5.0, 100.0),
         mass=log_uniform(g, 1e-3, 1e4),
         speed=float(np.sqrt(2 * GRAVITY * height)) * g.uniform(1.3, 4.0),
-        kind=neighbour(g),
     )
 
 
@@ -31,9 +30,7 @@ def _draw_bump(g: np.random.Generator) -> dict[str, Any]:
 @chosen(height=0.05, width=0.3, at=20.0, mass=1.0, speed=2.0)
 @chosen(height=0.05, width=0.3, at=60.0, mass=100.0, speed=1.5)
 @chosen(height=0.02, width=0.1, at=20.0, mass=0.01, speed=3.0, kind="ship")
-def path_bump(
-    height: float, width: float, at: float, mass: float, speed: float, kind: str | None = None
-) -> Scene:
+def path_bump(height: float, width: float, at: float, mass: float, speed: float) -> Scene:
     """A bead that coasts along a level wire with one bump, `width` wide (six deviations)."""
     deviation = width / 6.0
     x = np.r_[
@@ -66,7 +63,7 @@ def path_bump(
     wire = joint("wire", "path", "ground", "bead", path=points)
     tables = case([bead], end, joints=[wire], samples=800)
     # off by the delay that the bump causes, not by the way that the bead coasts
-    scene = unnamed(
+    return unnamed(
         title="a bead on a wire with a bump after a long straight",
         tables=tables,
         size=max(width, 2 * height),
@@ -75,7 +72,6 @@ def path_bump(
         truth=exact,
         measured=position("bead", 0, 2),
     )
-    return beside(scene, kind)
 
 
 def _draw_catch(g: np.random.Generator) -> dict[str, Any]:
@@ -85,7 +81,6 @@ def _draw_catch(g: np.random.Generator) -> dict[str, Any]:
         speed=log_uniform(g, 0.1, 10.0),
         coast=g.uniform(20.0, 200.0),
         restitution=g.uniform(0.2, 1.0),
-        kind=neighbour(g),
     )
 
 
@@ -94,12 +89,7 @@ def _draw_catch(g: np.random.Generator) -> dict[str, Any]:
 @chosen(masses=(50.0, 1.0), rate=5.0, speed=0.2, coast=150.0, restitution=1.0)
 @chosen(masses=(1.0, 1.0), rate=2.0, speed=1.0, coast=60.0, restitution=0.7, kind="barge")
 def rope_catch(
-    masses: tuple[float, float],
-    rate: float,
-    speed: float,
-    coast: float,
-    restitution: float,
-    kind: str | None = None,
+    masses: tuple[float, float], rate: float, speed: float, coast: float, restitution: float
 ) -> Scene:
     """A mass that coasts away from a sprung one until the rope between them is taut."""
     m, n = masses
@@ -163,7 +153,7 @@ def rope_catch(
     )
     tables = case(bodies, end, joints=[rope], forces=[mooring], samples=500, gravity=0.0)
     size = min(1.0, n / (m + n) * 2.0) * speed / rate
-    scene = unnamed(
+    return unnamed(
         title="a rope that is taut after a long coast",
         tables=tables,
         size=size,
@@ -172,7 +162,6 @@ def rope_catch(
         truth=exact,
         measured=both(position("sprung", 0), position("free", 0, origin=[start, 0.0, 0.0])),
     )
-    return beside(scene, kind)
 
 
 def _draw_coast(g: np.random.Generator) -> dict[str, Any]:
@@ -181,7 +170,6 @@ def _draw_coast(g: np.random.Generator) -> dict[str, Any]:
         speed=log_uniform(g, 1e-3, 100.0),
         coast=g.uniform(20.0, 500.0),
         restitution=g.uniform(0.0, 1.0),
-        kind=neighbour(g),
     )
 
 
@@ -190,9 +178,7 @@ def _draw_coast(g: np.random.Generator) -> dict[str, Any]:
 @chosen(mass=1e4, speed=0.01, coast=300.0, restitution=0.0)
 @chosen(mass=1e-3, speed=0.1, coast=100.0, restitution=0.9, kind="ship")
 @chosen(mass=700.0, speed=0.007, coast=200.0, restitution=0.3)
-def coast_to_stop(
-    mass: float, speed: float, coast: float, restitution: float, kind: str | None = None
-) -> Scene:
+def coast_to_stop(mass: float, speed: float, coast: float, restitution: float) -> Scene:
     """A slider that coasts into a stop."""
     way = speed * coast
     end = 1.3 * coast
@@ -206,7 +192,7 @@ def coast_to_stop(
         joints=[joint("guide", "prismatic", "ground", "slider", axis=X)],
         constraints=[stop("stop", "guide", restitution, upper=way)],
     )
-    scene = unnamed(
+    return unnamed(
         title="a slider that coasts into a stop",
         tables=tables,
         size=way,
@@ -215,4 +201,3 @@ def coast_to_stop(
         truth=truth.column(place),
         measured=position("slider", 0),
     )
-    return beside(scene, kind)

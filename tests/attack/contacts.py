@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from tests.attack import truth
 from tests.attack.bounces import falling_ball
-from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.parts import DOWN_Y, GRAVITY, beside, body, case, joint, position
+from tests.attack.family import chosen, family, log_uniform, unnamed
+from tests.attack.parts import DOWN_Y, GRAVITY, body, case, joint, position
 from tests.attack.slide import LARGE, SMALL, UNIT, Scale, block, drawn, placed, spring
 
 from hydrodae.study.stability import Scene
@@ -25,7 +25,6 @@ def _draw_stop(g: np.random.Generator) -> dict[str, Any]:
         exponent=g.uniform(1.0, 3.0),
         damping=g.uniform(0.0, 0.5),
         end=g.uniform(20.0, 100.0),
-        kind=neighbour(g),
     )
 
 
@@ -34,9 +33,7 @@ def _draw_stop(g: np.random.Generator) -> dict[str, Any]:
 @chosen(scale=SMALL, hard=30.0, exponent=1.0, damping=0.1, end=30.0)
 @chosen(scale=LARGE, hard=5.0, exponent=2.0, damping=0.0, end=100.0)
 @chosen(scale=UNIT, hard=100.0, exponent=1.5, damping=0.3, end=20.0, kind="ship")
-def compliant_stop(
-    scale: Three, hard: float, exponent: float, damping: float, end: float, kind: str | None = None
-) -> Scene:
+def compliant_stop(scale: Three, hard: float, exponent: float, damping: float, end: float) -> Scene:
     """A block on a spring between two stops k u^n (1 + d u') at 0.6 of its release."""
     s, gap = Scale(*scale), 0.6
     own = hard**2 * s.force / s.length**exponent
@@ -78,7 +75,7 @@ def compliant_stop(
         exponent=exponent,
         damping=damping / s.speed,
     )
-    scene = block(
+    return block(
         s,
         title=f"a block between stops {hard:g} times as stiff as its spring",
         forces=[spring(s), stop],
@@ -86,7 +83,6 @@ def compliant_stop(
         end=end,
         tau=1.0 / hard,
     )
-    return beside(scene, kind)
 
 
 def _draw_belt(g: np.random.Generator) -> dict[str, Any]:
@@ -95,7 +91,6 @@ def _draw_belt(g: np.random.Generator) -> dict[str, Any]:
         pull=log_uniform(g, 0.02, 2.0),
         bristle=log_uniform(g, 1e-3, 0.05),
         end=g.uniform(20.0, 60.0),
-        kind=neighbour(g),
     )
 
 
@@ -104,9 +99,7 @@ def _draw_belt(g: np.random.Generator) -> dict[str, Any]:
 @chosen(scale=SMALL, pull=0.3, bristle=0.02, end=40.0)
 @chosen(scale=LARGE, pull=0.1, bristle=0.01, end=40.0)
 @chosen(scale=UNIT, pull=1.0, bristle=0.005, end=30.0, kind="ship")
-def bristle_pull(
-    scale: Three, pull: float, bristle: float, end: float, kind: str | None = None
-) -> Scene:
+def bristle_pull(scale: Three, pull: float, bristle: float, end: float) -> Scene:
     """A block drawn by a spring whose end runs away at `pull`: it sticks and slips (LuGre)."""
     s, stick, slip, over = Scale(*scale), 1.0, 0.6, 0.05
     stiff = stick / bristle
@@ -170,7 +163,7 @@ def bristle_pull(
         *tables["force"],
         {"type": "pto_linear", "name": "drawn", "joint": "between", "stiffness": s.stiffness},
     ]
-    return beside(replace(scene, tables=tables), kind)
+    return replace(scene, tables=tables)
 
 
 def _draw_incline(g: np.random.Generator) -> dict[str, Any]:
@@ -180,7 +173,6 @@ def _draw_incline(g: np.random.Generator) -> dict[str, Any]:
         friction=g.uniform(0.05, 0.6),
         mass=log_uniform(g, 1e-3, 1e6),
         length=log_uniform(g, 1e-3, 1e3),
-        kind=neighbour(g),
     )
 
 
@@ -190,9 +182,7 @@ def _draw_incline(g: np.random.Generator) -> dict[str, Any]:
 @chosen(how="dry", angle=0.3, friction=0.5, mass=1e6, length=100.0)
 @chosen(how="dry", angle=0.8, friction=0.2, mass=1.0, length=1.0, kind="ship")
 @chosen(how="stribeck", angle=0.8, friction=0.2, mass=1e6, length=10.0, kind="barge")
-def pressed_incline(
-    how: str, angle: float, friction: float, mass: float, length: float, kind: str | None = None
-) -> Scene:
+def pressed_incline(how: str, angle: float, friction: float, mass: float, length: float) -> Scene:
     """A block shot up an incline, on friction that its own weight presses."""
     speed = float(np.sqrt(2.0 * GRAVITY * length))
     tau = length / speed
@@ -244,7 +234,7 @@ def pressed_incline(
         joints=[joint("guide", "prismatic", "ground", "block", axis=along)],
         forces=[law],
     )
-    scene = unnamed(
+    return unnamed(
         title=f"a block shot up an incline, {how} friction",
         tables=tables,
         size=height * length,
@@ -253,7 +243,6 @@ def pressed_incline(
         truth=lambda t: length * solved(np.asarray(t) / tau) * np.array([along]),
         measured=position("block", 0, 1, 2),
     )
-    return beside(scene, kind)
 
 
 def _draw_hinge(g: np.random.Generator) -> dict[str, Any]:
@@ -262,7 +251,6 @@ def _draw_hinge(g: np.random.Generator) -> dict[str, Any]:
         mass=log_uniform(g, 1e-3, 1e6),
         angle=g.uniform(0.3, 2.8),
         friction=g.uniform(0.05, 0.4),
-        kind=neighbour(g),
     )
 
 
@@ -270,9 +258,7 @@ def _draw_hinge(g: np.random.Generator) -> dict[str, Any]:
 @chosen(length=1.0, mass=1.0, angle=1.5, friction=0.2)
 @chosen(length=1e-3, mass=1e-3, angle=2.5, friction=0.1)
 @chosen(length=100.0, mass=1e6, angle=1.0, friction=0.3, kind="barge")
-def pressed_hinge(
-    length: float, mass: float, angle: float, friction: float, kind: str | None = None
-) -> Scene:
+def pressed_hinge(length: float, mass: float, angle: float, friction: float) -> Scene:
     """A bar that swings on a pin of a tenth of its arm, on friction of the pin's own reaction."""
     tau = float(np.sqrt(length / GRAVITY))
     pin, creep = 0.1, 1e-2
@@ -312,7 +298,7 @@ def pressed_hinge(
         joints=[joint("hinge", "revolute", "ground", "bar", axis=DOWN_Y)],
         forces=[law],
     )
-    scene = unnamed(
+    return unnamed(
         title=f"a bar on a pin with friction {friction:g}",
         tables=tables,
         size=length * min(1.0, angle),
@@ -321,7 +307,6 @@ def pressed_hinge(
         truth=lambda t: length * (solved(np.asarray(t) / tau) - start[[0, 2]]),
         measured=position("bar", 0, 2, origin=length * start),
     )
-    return beside(scene, kind)
 
 
 def _draw_timed(g: np.random.Generator) -> dict[str, Any]:
@@ -333,7 +318,7 @@ def _draw_timed(g: np.random.Generator) -> dict[str, Any]:
     )
 
 
-@family(KIND, _draw_timed)
+@family(KIND, _draw_timed, alone=True)
 @chosen(height=1.0, restitution=0.5, mass=1.0, contact=0.01)
 @chosen(height=1e-3, restitution=0.3, mass=1e-3, contact=1.0)
 @chosen(height=10.0, restitution=0.7, mass=1e6, contact=1e-4)

@@ -6,8 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from tests.attack.family import chosen, family, log_uniform, neighbour
-from tests.attack.parts import beside
+from tests.attack.family import chosen, family, log_uniform
 from tests.attack.slide import LARGE, SMALL, UNIT, Scale, block, drawn, spring
 
 from hydrodae.study.stability import Scene
@@ -51,7 +50,6 @@ def _draw_pi(g: np.random.Generator) -> dict[str, Any]:
         late=g.uniform(0.0, 0.9),
         limit=g.uniform(0.05, 1.0),
         end=g.uniform(10.0, 60.0),
-        kind=neighbour(g),
     )
 
 
@@ -60,9 +58,7 @@ def _draw_pi(g: np.random.Generator) -> dict[str, Any]:
 @chosen(scale=SMALL, period=0.05, late=0.5, limit=0.1, end=30.0)
 @chosen(scale=LARGE, period=0.3, late=0.3, limit=0.2, end=60.0)
 @chosen(scale=UNIT, period=0.05, late=0.0, limit=0.2, end=30.0, kind="ship")
-def pi_block(
-    scale: Three, period: float, late: float, limit: float, end: float, kind: str | None = None
-) -> Scene:
+def pi_block(scale: Three, period: float, late: float, limit: float, end: float) -> Scene:
     """A PI controller of the rate, within limits, with back-calculation and a delay."""
     s, gain, rise = Scale(*scale), 0.3, 0.1
 
@@ -92,7 +88,7 @@ def pi_block(
         delay=late * period / s.rate,
     )
     machine = {"type": "pto_general", "name": "pto", "joint": "slide"}
-    scene = block(
+    return block(
         s,
         title="a block under a sampled PI controller",
         forces=[spring(s), machine],
@@ -100,7 +96,6 @@ def pi_block(
         end=end,
         controller=[controller],
     )
-    return beside(scene, kind)
 
 
 class Switch:
@@ -121,7 +116,6 @@ def _draw_switch(g: np.random.Generator) -> dict[str, Any]:
         period=log_uniform(g, 0.01, 0.7),
         load=g.uniform(0.02, 0.2),
         end=g.uniform(10.0, 60.0),
-        kind=neighbour(g),
     )
 
 
@@ -130,9 +124,7 @@ def _draw_switch(g: np.random.Generator) -> dict[str, Any]:
 @chosen(scale=SMALL, period=0.37, load=0.05, end=40.0)
 @chosen(scale=LARGE, period=0.07, load=0.03, end=40.0)
 @chosen(scale=UNIT, period=0.13, load=0.1, end=20.0, kind="rotor")
-def python_switch(
-    scale: Three, period: float, load: float, end: float, kind: str | None = None
-) -> Scene:
+def python_switch(scale: Three, period: float, load: float, end: float) -> Scene:
     """A switch in Python that brakes with a constant load between its instants."""
     s = Scale(*scale)
 
@@ -152,7 +144,7 @@ def python_switch(
         period=period / s.rate,
     )
     machine = {"type": "pto_linear", "name": "pto", "joint": "slide"}
-    scene = block(
+    return block(
         s,
         title="a block that a switch in Python brakes",
         forces=[spring(s), machine],
@@ -161,7 +153,6 @@ def python_switch(
         controller=[controller],
         controllers={"brake": lambda: Switch(load * s.force)},
     )
-    return beside(scene, kind)
 
 
 def _draw_latch(g: np.random.Generator) -> dict[str, Any]:
@@ -170,7 +161,6 @@ def _draw_latch(g: np.random.Generator) -> dict[str, Any]:
         hold=log_uniform(g, 0.05, 10.0),
         damping=g.uniform(0.0, 0.2),
         end=g.uniform(20.0, 80.0),
-        kind=neighbour(g),
     )
 
 
@@ -179,9 +169,7 @@ def _draw_latch(g: np.random.Generator) -> dict[str, Any]:
 @chosen(scale=SMALL, hold=0.3, damping=0.0, end=40.0)
 @chosen(scale=LARGE, hold=5.0, damping=0.1, end=60.0)
 @chosen(scale=UNIT, hold=1.0, damping=0.02, end=40.0, kind="barge")
-def latched_block(
-    scale: Three, hold: float, damping: float, end: float, kind: str | None = None
-) -> Scene:
+def latched_block(scale: Three, hold: float, damping: float, end: float) -> Scene:
     """A swing that is held at each standstill for some time."""
     s = Scale(*scale)
     swing = np.sqrt(1.0 - damping**2)
@@ -210,7 +198,6 @@ def latched_block(
         period=0.2 / s.rate,
     )
     damper = spring(s) | {"damping": 2.0 * damping * s.mass * s.rate}
-    scene = block(
+    return block(
         s, f"a block latched for {hold:g}", [damper, friction], exact, end, controller=[controller]
     )
-    return beside(scene, kind)

@@ -7,18 +7,8 @@ from typing import Any
 import numpy as np
 from tests.attack import truth
 from tests.attack.drives import HOW, KIND, functions, knots, motion, start_rate
-from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.parts import (
-    DOWN_Y,
-    X,
-    beside,
-    body,
-    case,
-    channel,
-    driven,
-    joint,
-    position,
-)
+from tests.attack.family import chosen, family, log_uniform, unnamed
+from tests.attack.parts import DOWN_Y, X, body, case, channel, driven, joint, position
 
 from hydrodae.study.stability import Scene
 
@@ -30,7 +20,6 @@ def _draw_crank(g: np.random.Generator) -> dict[str, Any]:
         period=log_uniform(g, 0.3, 20.0),
         ratio=g.uniform(1.3, 4.0),
         radius=log_uniform(g, 0.01, 10.0),
-        kind=neighbour(g),
     )
 
 
@@ -39,9 +28,7 @@ def _draw_crank(g: np.random.Generator) -> dict[str, Any]:
 @chosen(how="rate", amplitude=1.0, period=1.0, ratio=1.5, radius=0.1)
 @chosen(how="python", amplitude=2.0, period=5.0, ratio=3.0, radius=1.0)
 @chosen(how="table", amplitude=1.0, period=2.0, ratio=2.0, radius=1.0, kind="barge")
-def driven_crank(
-    how: str, amplitude: float, period: float, ratio: float, radius: float, kind: str | None = None
-) -> Scene:
+def driven_crank(how: str, amplitude: float, period: float, ratio: float, radius: float) -> Scene:
     """A slider crank that is driven: x = r cos a + sqrt(l^2 - r^2 sin^2 a), a = a0 + f."""
     end = 12.0 * period
     f, drive = motion(how, amplitude, period, end)
@@ -92,7 +79,7 @@ def driven_crank(
         constraints=[driven("motor", drive, joint="bearing")],
         samples=400,
     )
-    scene = unnamed(
+    return unnamed(
         title=f"a slider crank driven by a {how}",
         tables=tables,
         size=radius * min(1.0, amplitude),
@@ -102,7 +89,6 @@ def driven_crank(
         measured=position("slider", 0),
         drives=functions("motor", how, f),
     )
-    return beside(scene, kind)
 
 
 def _draw_shaft(g: np.random.Generator) -> dict[str, Any]:
@@ -111,7 +97,6 @@ def _draw_shaft(g: np.random.Generator) -> dict[str, Any]:
         amplitude=log_uniform(g, 0.1, 20.0),
         period=log_uniform(g, 1.0, 20.0),
         bend_deg=g.uniform(5.0, 45.0),
-        kind=neighbour(g),
     )
 
 
@@ -120,9 +105,7 @@ def _draw_shaft(g: np.random.Generator) -> dict[str, Any]:
 @chosen(how="rate", amplitude=1.0, period=1.0, bend_deg=20.0)
 @chosen(how="sine", amplitude=10.0, period=20.0, bend_deg=40.0)
 @chosen(how="python", amplitude=1.0, period=3.0, bend_deg=30.0, kind="ship")
-def universal_shaft(
-    how: str, amplitude: float, period: float, bend_deg: float, kind: str | None = None
-) -> Scene:
+def universal_shaft(how: str, amplitude: float, period: float, bend_deg: float) -> Scene:
     """Hooke's joint between a driven shaft and one at an angle: tan(b) = cos(bend) tan(a)."""
     end = 10.0 * period
     f, drive = motion(how, amplitude, period, end)
@@ -156,7 +139,7 @@ def universal_shaft(
         samples=400,
         gravity=0.0,
     )
-    scene = unnamed(
+    return unnamed(
         title=f"a universal joint whose shaft is driven by a {how}",
         tables=tables,
         size=min(1.0, amplitude),
@@ -167,7 +150,6 @@ def universal_shaft(
         unit="rad",
         drives=functions("motor", how, f),
     )
-    return beside(scene, kind)
 
 
 def _draw_gear(g: np.random.Generator) -> dict[str, Any]:
@@ -178,7 +160,6 @@ def _draw_gear(g: np.random.Generator) -> dict[str, Any]:
         ratio=float(g.choice([-1.0, 1.0])) * log_uniform(g, 0.1, 20.0),
         rate=log_uniform(g, 0.3, 30.0),
         damping=g.uniform(0.0, 0.3),
-        kind=neighbour(g),
     )
 
 
@@ -188,13 +169,7 @@ def _draw_gear(g: np.random.Generator) -> dict[str, Any]:
 @chosen(how="table", amplitude=0.1, period=8.0, ratio=15.0, rate=6.0, damping=0.0)
 @chosen(how="python", amplitude=3.0, period=4.0, ratio=2.0, rate=1.0, damping=0.2, kind="ship")
 def driven_gear(
-    how: str,
-    amplitude: float,
-    period: float,
-    ratio: float,
-    rate: float,
-    damping: float,
-    kind: str | None = None,
+    how: str, amplitude: float, period: float, ratio: float, rate: float, damping: float
 ) -> Scene:
     """A driven wheel, a gear, and a third wheel on a soft shaft: c'' = -rate^2 (c - n f) - ...."""
     tau = min(1.0 / rate, period / (2.0 * np.pi))
@@ -240,7 +215,7 @@ def driven_gear(
         gravity=0.0,
         constraints=[driven("motor", drive, joint="pin_a"), gear],
     )
-    scene = unnamed(
+    return unnamed(
         title=f"gears driven by a {how}, a wheel on a soft shaft",
         tables=tables,
         size=abs(amplitude) * max(1.0, abs(ratio)),
@@ -251,4 +226,3 @@ def driven_gear(
         unit="rad",
         drives=functions("motor", how, f),
     )
-    return beside(scene, kind)

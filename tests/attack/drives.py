@@ -8,12 +8,11 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import CubicSpline
 from tests.attack import truth
-from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
+from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.parts import (
     DOWN_Y,
     GRAVITY,
     X,
-    beside,
     body,
     both,
     case,
@@ -109,7 +108,6 @@ def _draw_arm(g: np.random.Generator) -> dict[str, Any]:
         period=log_uniform(g, 0.3, 20.0),
         length=log_uniform(g, 0.01, 100.0),
         mass=log_uniform(g, 1e-3, 1e6),
-        kind=neighbour(g),
     )
 
 
@@ -121,9 +119,7 @@ def _draw_arm(g: np.random.Generator) -> dict[str, Any]:
 @chosen(how="python", amplitude=0.3, period=10.0, length=2.0, mass=1e3)
 @chosen(how="ramp", amplitude=1.0, period=5.0, length=1.0, mass=1.0)
 @chosen(how="sine", amplitude=0.02, period=0.3, length=10.0, mass=1e5)
-def driven_arm(
-    how: str, amplitude: float, period: float, length: float, mass: float, kind: str | None = None
-) -> Scene:
+def driven_arm(how: str, amplitude: float, period: float, length: float, mass: float) -> Scene:
     """A bar whose hinge is driven; a second bar hangs from its end.
 
     (I + m h^2) phi'' = -m h (a_x cos phi + (a_z + g) sin phi), a: acceleration of the pin.
@@ -179,7 +175,7 @@ def driven_arm(
         bodies, end, joints=joints, constraints=[driven("motor", drive, joint="hinge")], samples=400
     )
     size = length * min(1.0, amplitude * max(1.0, amplitude) * (1.0 if how != "rate" else 10.0))
-    scene = unnamed(
+    return unnamed(
         title=f"an arm driven by a {how}, a bar hangs from it",
         tables=tables,
         size=size,
@@ -189,7 +185,6 @@ def driven_arm(
         measured=both(position("arm", 0, 2), position("tail", 0, 2)),
         drives=functions("motor", how, f),
     )
-    return beside(scene, kind)
 
 
 def _draw_belt(g: np.random.Generator) -> dict[str, Any]:
@@ -199,7 +194,6 @@ def _draw_belt(g: np.random.Generator) -> dict[str, Any]:
         period=log_uniform(g, 0.5, 10.0),
         friction=log_uniform(g, 0.5, 20.0),
         stiffness=log_uniform(g, 5.0, 100.0),
-        kind=neighbour(g),
     )
 
 
@@ -209,12 +203,7 @@ def _draw_belt(g: np.random.Generator) -> dict[str, Any]:
 @chosen(how="python", amplitude=1.0, period=6.0, friction=8.0, stiffness=40.0, kind="barge")
 @chosen(how="rate", amplitude=0.2, period=6.0, friction=8.0, stiffness=40.0)
 def swinging_belt(
-    how: str,
-    amplitude: float,
-    period: float,
-    friction: float,
-    stiffness: float,
-    kind: str | None = None,
+    how: str, amplitude: float, period: float, friction: float, stiffness: float
 ) -> Scene:
     """A block of 1 kg with a spring to the ground on a driven belt, with Coulomb's friction.
 
@@ -273,7 +262,7 @@ def swinging_belt(
         ],
         samples=400,
     )
-    scene = unnamed(
+    return unnamed(
         title=f"a block with dry friction on a belt driven by a {how}",
         tables=tables,
         size=min(amplitude, friction / stiffness),
@@ -283,7 +272,6 @@ def swinging_belt(
         measured=both(position("belt", 0), position("block", 0)),
         drives=functions("motor", how, f),
     )
-    return beside(scene, kind)
 
 
 def _draw_velocity(g: np.random.Generator) -> dict[str, Any]:
@@ -291,7 +279,6 @@ def _draw_velocity(g: np.random.Generator) -> dict[str, Any]:
         speed=log_uniform(g, 0.01, 5.0),
         period=log_uniform(g, 0.3, 20.0),
         length=log_uniform(g, 0.1, 10.0),
-        kind=neighbour(g),
     )
 
 
@@ -299,7 +286,7 @@ def _draw_velocity(g: np.random.Generator) -> dict[str, Any]:
 @chosen(speed=0.5, period=3.0, length=1.0)
 @chosen(speed=0.1, period=0.5, length=2.0)
 @chosen(speed=0.5, period=8.0, length=1.0, kind="ship")
-def velocity_drive(speed: float, period: float, length: float, kind: str | None = None) -> Scene:
+def velocity_drive(speed: float, period: float, length: float) -> Scene:
     """A cart whose rate is a sine, x = V / w (1 - cos wt), with a bob that hangs from it."""
     w, slow = 2.0 * np.pi / period, np.sqrt(length / GRAVITY)
     tau = min(1.0 / w, slow)
@@ -323,7 +310,7 @@ def velocity_drive(speed: float, period: float, length: float, kind: str | None 
         ],
     )
     tables = case(bodies, end, joints=joints, constraints=[motor], samples=400)
-    scene = unnamed(
+    return unnamed(
         title="a cart whose rate is driven by a sine",
         tables=tables,
         size=speed / w,
@@ -332,7 +319,6 @@ def velocity_drive(speed: float, period: float, length: float, kind: str | None 
         truth=exact,
         measured=both(position("cart", 0), position("bob", 0, 2)),
     )
-    return beside(scene, kind)
 
 
 def _draw_alone(g: np.random.Generator) -> dict[str, Any]:
@@ -342,7 +328,6 @@ def _draw_alone(g: np.random.Generator) -> dict[str, Any]:
         phase_deg=g.uniform(0.0, 90.0),
         length=log_uniform(g, 0.01, 100.0),
         motion=("planar", "rigid")[g.integers(2)],
-        kind=neighbour(g),
     )
 
 
@@ -352,12 +337,7 @@ def _draw_alone(g: np.random.Generator) -> dict[str, Any]:
 @chosen(amplitude=3.0, period=5.0, phase_deg=30.0, length=1.0, motion="rigid")
 @chosen(amplitude=0.2, period=1.0, phase_deg=0.0, length=1.0, motion="rigid", kind="barge")
 def arm_alone(
-    amplitude: float,
-    period: float,
-    phase_deg: float,
-    length: float,
-    motion: str,
-    kind: str | None = None,
+    amplitude: float, period: float, phase_deg: float, length: float, motion: str
 ) -> Scene:
     """A bar that does nothing but follow the sine of its hinge."""
     w, phase, half = 2.0 * np.pi / period, np.radians(phase_deg), 0.5 * length
@@ -382,7 +362,7 @@ def arm_alone(
         constraints=[driven("motor", drive, joint="hinge")],
         samples=400,
     )
-    scene = unnamed(
+    return unnamed(
         title="an arm that follows a sine",
         tables=tables,
         size=min(1.0, amplitude),
@@ -392,4 +372,3 @@ def arm_alone(
         measured=channel("joints/hinge/angle"),
         unit="rad",
     )
-    return beside(scene, kind)

@@ -9,6 +9,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
+from tests.attack.parts import beside
 
 from hydrodae.study.stability import Scene
 
@@ -30,6 +31,8 @@ class Family:
         Parameters of the scenes of the suite.
     draw : callable
         Draws the parameters of a new scene.
+    alone : bool
+        Nothing unrelated stands beside these scenes.
     """
 
     kind: str
@@ -37,18 +40,28 @@ class Family:
     make: Callable[..., Scene]
     chosen: Sequence[Mapping[str, Any]]
     draw: Draw
+    alone: bool = False
 
     def scenes(self) -> list[Scene]:
         """Return the scenes of the suite."""
         return [
-            replace(self.make(**values), name=f"{self.name}_{k + 1}")
+            replace(self._made(values), name=f"{self.name}_{k + 1}")
             for k, values in enumerate(self.chosen)
         ]
 
     def drawn(self, seed: int) -> Scene:
         """Return the scene of a seed."""
         generator = np.random.default_rng([seed, zlib.crc32(self.name.encode())])
-        return replace(self.make(**self.draw(generator)), name=f"{self.name}_s{seed}")
+        values = self.draw(generator)
+        if not self.alone:
+            values["kind"] = neighbour(generator)
+        return replace(self._made(values), name=f"{self.name}_s{seed}")
+
+    def _made(self, values: Mapping[str, Any]) -> Scene:
+        if self.alone:
+            return self.make(**values)
+        own = {key: value for key, value in values.items() if key != "kind"}
+        return beside(self.make(**own), values.get("kind"))
 
 
 FAMILIES: dict[str, Family] = {}
@@ -57,18 +70,22 @@ unnamed = partial(Scene, "")
 _CHOSEN: dict[Make, list[dict[str, Any]]] = {}
 
 
-def family(kind: str, draw: Draw) -> Callable[[Make], Make]:
+def family(kind: str, draw: Draw, *, alone: bool = False) -> Callable[[Make], Make]:
     """Register the decorated function of parameters as a family of scenes; see `chosen`."""
 
     def register(make: Make) -> Make:
-        FAMILIES[make.__name__] = Family(kind, make.__name__, make, _CHOSEN.pop(make), draw)
+        made = Family(kind, make.__name__, make, _CHOSEN.pop(make), draw, alone)
+        FAMILIES[made.name] = made
         return make
 
     return register
 
 
 def chosen(**parameters: Any) -> Callable[[Make], Make]:
-    """Add a scene of the suite to the family: its parameters, between `family` and the function."""
+    """Add a scene of the suite to the family: its parameters, between `family` and the function.
+
+    Unless the family is `alone`, `kind` is that of an unrelated mechanism beside the scene.
+    """
 
     def note(make: Make) -> Make:
         _CHOSEN.setdefault(make, []).insert(0, parameters)  # the lowest decorator comes first

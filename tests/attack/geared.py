@@ -9,9 +9,10 @@ import numpy as np
 from tests.attack import truth
 from tests.attack.bars import SOURCE, Chain
 from tests.attack.family import chosen, family, log_uniform, unnamed
-from tests.attack.parts import Array, both, case, driven
+from tests.attack.parts import both, case, driven
 
 from hydrodae.study.stability import Scene
+from hydrodae.support.arrays import Array
 
 
 def _reduced(chain: Chain, pose: Callable[[float, float], Any], first: float) -> truth.Rates:
@@ -38,7 +39,7 @@ def _draw_relative(g: np.random.Generator) -> dict[str, Any]:
     )
 
 
-@family("drives", _draw_relative)
+@family("drives", _draw_relative, alone=True)
 @chosen(amplitude=1.0, period=1.0, angle=0.6, end=8.0)
 def driven_knee(amplitude: float, period: float, angle: float, end: float) -> Scene:
     """Two bars; a sine drives the hinge between them, and the upper one swings."""
@@ -78,7 +79,7 @@ def _draw_coupled(g: np.random.Generator) -> dict[str, Any]:
     )
 
 
-@family("drives", _draw_coupled)
+@family("drives", _draw_coupled, alone=True)
 @chosen(ratio=-2.5, angle=1.2, bend=0.3, end=10.0)
 @chosen(ratio=3.0, angle=2.9, bend=-0.4, end=8.0)
 def geared_knee(ratio: float, angle: float, bend: float, end: float) -> Scene:
@@ -102,7 +103,7 @@ def _draw_pair(g: np.random.Generator) -> dict[str, Any]:
     return {"ratio": g.uniform(0.3, 2.0) / size, "size": size, "end": g.uniform(5.0, 15.0)}
 
 
-@family("drives", _draw_pair)
+@family("drives", _draw_pair, alone=True)
 @chosen(ratio=-1.7, size=1.0, end=10.0)
 @chosen(ratio=0.01, size=100.0, end=20.0)
 def geared_pendulums(ratio: float, size: float, end: float) -> Scene:

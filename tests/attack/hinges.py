@@ -6,8 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from tests.attack.family import chosen, family, log_uniform, neighbour
-from tests.attack.parts import beside
+from tests.attack.family import chosen, family, log_uniform
 
 from hydrodae.study.stability import Scene, all_scenes
 
@@ -21,9 +20,7 @@ TOLD = (
 
 def _draw(g: np.random.Generator) -> dict[str, Any]:
     return dict(
-        misfit=log_uniform(g, 1e-9, 1e-3),
-        direction=("side", "across", "tilt")[g.integers(3)],
-        kind=neighbour(g),
+        misfit=log_uniform(g, 1e-9, 1e-3), direction=("side", "across", "tilt")[g.integers(3)]
     )
 
 
@@ -36,7 +33,7 @@ def _draw(g: np.random.Generator) -> dict[str, Any]:
 @chosen(misfit=1e-4, direction="tilt")
 @chosen(misfit=1e-8, direction="across")
 @chosen(misfit=1e-8, direction="side", kind="ship")
-def misaligned_door(misfit: float, direction: str, kind: str | None = None) -> Scene:
+def misaligned_door(misfit: float, direction: str) -> Scene:
     """The door of the benchmarks, its lower hinge off by `misfit` metres (or its axis, in rad)."""
     scene = all_scenes()["door"]
     tables = dict(scene.tables)
@@ -50,4 +47,4 @@ def misaligned_door(misfit: float, direction: str, kind: str | None = None) -> S
         joints[1]["point"] = [float(x) for x in np.array(joints[1]["point"]) + off]
     tables["joint"] = joints
     title = f"a door whose hinges are misaligned by {misfit:g}"
-    return beside(replace(scene, title=title, tables=tables, told=TOLD), kind)
+    return replace(scene, title=title, tables=tables, told=TOLD)

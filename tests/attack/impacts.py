@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 from tests.attack import sea, truth
-from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.parts import DOWN_Y, GRAVITY, X, Z, beside, body, case, joint, position, stop
+from tests.attack.family import chosen, family, log_uniform, unnamed
+from tests.attack.parts import DOWN_Y, GRAVITY, X, Z, body, case, joint, position, stop
 
 from hydrodae.study.stability import Scene
 
@@ -20,7 +20,6 @@ def _draw_arm(g: np.random.Generator) -> dict[str, Any]:
         start_deg=g.uniform(30.0, 120.0),
         stop_deg=g.uniform(-30.0, 20.0),
         restitution=g.uniform(0.0, 1.0),
-        kind=neighbour(g),
     )
 
 
@@ -56,9 +55,7 @@ def _against(angle: float, below: bool, rate2: float, restitution: float) -> dic
 @chosen(length=1.0, start_deg=90.0, stop_deg=15.0, restitution=0.5)
 @chosen(length=0.1, start_deg=60.0, stop_deg=0.0, restitution=0.9, kind="ship")
 @chosen(length=20.0, start_deg=80.0, stop_deg=5.0, restitution=0.0)
-def arm_and_stop(
-    length: float, start_deg: float, stop_deg: float, restitution: float, kind: str | None = None
-) -> Scene:
+def arm_and_stop(length: float, start_deg: float, stop_deg: float, restitution: float) -> Scene:
     """A bar that swings down against a stop of its hinge."""
     start, at, half = np.radians(start_deg), np.radians(stop_deg), 0.5 * length
     rate2 = 1.5 * GRAVITY / length
@@ -77,7 +74,7 @@ def arm_and_stop(
         joints=[joint("hinge", "revolute", "ground", "bar", axis=DOWN_Y)],
         constraints=[stop("stop", "hinge", restitution, lower_deg=stop_deg - start_deg)],
     )
-    scene = unnamed(
+    return unnamed(
         title=f"a bar against a stop at {stop_deg:g} deg",
         tables=tables,
         size=half,
@@ -86,7 +83,6 @@ def arm_and_stop(
         truth=exact,
         measured=position("bar", 0, 2),
     )
-    return beside(scene, kind)
 
 
 def _draw_stops(g: np.random.Generator) -> dict[str, Any]:
@@ -96,7 +92,6 @@ def _draw_stops(g: np.random.Generator) -> dict[str, Any]:
         release=log_uniform(g, 1e-4, 1.0),
         room=g.uniform(0.2, 0.9),
         restitution=g.uniform(0.0, 1.0),
-        kind=neighbour(g),
     )
 
 
@@ -106,12 +101,7 @@ def _draw_stops(g: np.random.Generator) -> dict[str, Any]:
 @chosen(mass=1.0, rate=10.0, release=0.1, room=0.3, restitution=1.0, kind="ship")
 @chosen(mass=76.0, rate=0.24, release=0.024, room=0.82, restitution=0.48)
 def spring_and_stop(
-    mass: float,
-    rate: float,
-    release: float,
-    room: float,
-    restitution: float,
-    kind: str | None = None,
+    mass: float, rate: float, release: float, room: float, restitution: float
 ) -> Scene:
     """A sprung mass whose way is bounded at `room` of its release on the other side."""
     bound = room * release
@@ -142,7 +132,7 @@ def spring_and_stop(
         forces=[pto],
         constraints=[stop("stop", "guide", restitution, lower=-bound)],
     )
-    scene = unnamed(
+    return unnamed(
         title=f"a sprung mass against a stop, restitution {restitution:g}",
         tables=tables,
         size=release,
@@ -151,7 +141,6 @@ def spring_and_stop(
         truth=exact,
         measured=position("mass", 0),
     )
-    return beside(scene, kind)
 
 
 def _draw_sea(g: np.random.Generator) -> dict[str, Any]:
@@ -160,7 +149,6 @@ def _draw_sea(g: np.random.Generator) -> dict[str, Any]:
         period=g.uniform(4.0, 8.0),
         room=g.uniform(0.3, 0.9),
         restitution=g.uniform(0.0, 0.8),
-        kind=neighbour(g),
     )
 
 
@@ -168,9 +156,7 @@ def _draw_sea(g: np.random.Generator) -> dict[str, Any]:
 @chosen(height=0.5, period=5.0, room=0.6, restitution=0.5)
 @chosen(height=0.02, period=5.0, room=0.6, restitution=0.3)
 @chosen(height=0.5, period=6.0, room=0.5, restitution=0.0)
-def stop_in_waves(
-    height: float, period: float, room: float, restitution: float, kind: str | None = None
-) -> Scene:
+def stop_in_waves(height: float, period: float, room: float, restitution: float) -> Scene:
     """A sphere in waves under an end stop at `room` of its free amplitude."""
     s, w, ramp = sea.sphere(), 2.0 * np.pi / period, 2.0 * period
     amplitude = float(
@@ -230,7 +216,7 @@ def stop_in_waves(
         constraints=[stop("stop", "guide", restitution, upper=bound)],
         wave=[{"name": "swell", "type": "regular", "period": period, "height": height}],
     )
-    scene = unnamed(
+    return unnamed(
         title=f"a sphere in waves of {height:g} m under an end stop",
         tables=tables,
         size=amplitude,
@@ -240,4 +226,3 @@ def stop_in_waves(
         measured=position("sphere", 2, origin=[0.0, 0.0, -sea.DRAFT]),
         database=sea.stored,
     )
-    return beside(scene, kind)

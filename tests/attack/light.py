@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.parts import GRAVITY, Table, beside, body, case, joint, position
+from tests.attack.family import chosen, family, log_uniform, unnamed
+from tests.attack.parts import GRAVITY, Table, body, case, joint, position
 
 from hydrodae.study.stability import Scene, truths
 
@@ -33,7 +33,6 @@ def _draw_point(g: np.random.Generator) -> dict[str, Any]:
         mass=log_uniform(g, 1e-3, 1e8),
         ratio=float(g.choice([0.0, log_uniform(g, 1e-13, 1.0)])),
         angle=g.uniform(0.1, 2.5),
-        kind=neighbour(g),
     )
 
 
@@ -42,16 +41,14 @@ def _draw_point(g: np.random.Generator) -> dict[str, Any]:
 @chosen(length=0.2, mass=1.0, ratio=7.5e-9, angle=1.0)
 @chosen(length=10.0, mass=1e5, ratio=1e-12, angle=2.0, kind="ship")
 @chosen(length=1.0, mass=1.0, ratio=0.0, angle=1.5)
-def point_on_hinge(
-    length: float, mass: float, ratio: float, angle: float, kind: str | None = None
-) -> Scene:
+def point_on_hinge(length: float, mass: float, ratio: float, angle: float) -> Scene:
     """A body of moment of inertia `ratio` m L^2 that turns freely but for its hinge."""
     at = length * np.array([np.sin(angle), 0.0, -np.cos(angle)])
     bob = body("bob", "rigid", mass, at, [ratio * mass * length**2] * 3)
     rate = float(np.sqrt(GRAVITY / length / (1.0 + ratio)))
     hinge = joint("hinge", "revolute", "ground", "bob", axis=[0.0, 1.0, 0.0])
     title = f"a body of moment of inertia {ratio:g} m L2 on a hinge"
-    return beside(_scene(title, [bob], [hinge], length, rate, angle), kind)
+    return _scene(title, [bob], [hinge], length, rate, angle)
 
 
 def _draw_link(g: np.random.Generator) -> dict[str, Any]:
@@ -61,7 +58,6 @@ def _draw_link(g: np.random.Generator) -> dict[str, Any]:
         light=float(g.choice([0.0, log_uniform(g, 1e-12, 1e-3)])),
         angle=g.uniform(0.1, 2.0),
         n_links=int(g.integers(1, 3)),
-        kind=neighbour(g),
     )
 
 
@@ -71,9 +67,7 @@ def _draw_link(g: np.random.Generator) -> dict[str, Any]:
 @chosen(length=1.0, mass=1e6, light=1e-10, angle=0.5, n_links=1, kind="rotor")
 @chosen(length=2.0, mass=80.0, light=0.0, angle=0.8, n_links=2)
 @chosen(length=2.0, mass=80.0, light=1e-7, angle=0.8, n_links=2)
-def bob_on_links(
-    length: float, mass: float, light: float, angle: float, n_links: int, kind: str | None = None
-) -> Scene:
+def bob_on_links(length: float, mass: float, light: float, angle: float, n_links: int) -> Scene:
     """A bob on one uniform link of `light` times its mass, or on two that keep it upright."""
     end = length * np.array([np.sin(angle), 0.0, -np.cos(angle)])
     inertia = [light * mass * length**2 / 12.0] * 2 + [0.0]
@@ -92,4 +86,4 @@ def bob_on_links(
     all_links = n_links * light
     rate = float(np.sqrt(GRAVITY / length * (1.0 + all_links / 2.0) / (1.0 + all_links / 3.0)))
     title = f"a bob on {n_links} link of {light:g} of its mass"
-    return beside(_scene(title, bodies, joints, length, rate, angle), kind)
+    return _scene(title, bodies, joints, length, rate, angle)

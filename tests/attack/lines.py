@@ -7,11 +7,12 @@ from typing import Any
 import numpy as np
 from scipy.optimize import root
 from tests.attack import truth
-from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.parts import GRAVITY, Array, beside, body, case, driven, position
+from tests.attack.family import chosen, family, log_uniform, unnamed
+from tests.attack.parts import GRAVITY, body, case, driven, position
 
 from hydrodae.results import Results
 from hydrodae.study.stability import Scene
+from hydrodae.support.arrays import Array
 
 KIND = "moorings"
 
@@ -51,7 +52,6 @@ def _draw_line(g: np.random.Generator) -> dict[str, Any]:
         speed=g.uniform(0.05, 0.8),
         drag=float(g.choice([0.0, 1.0])),
         segments=int(g.integers(3, 9)),
-        kind=neighbour(g),
     )
 
 
@@ -71,7 +71,6 @@ def hanging_line(
     speed: float,
     drag: float,
     segments: int,
-    kind: str | None = None,
 ) -> Scene:
     """A mass at the end of a dynamic line, pushed sideways; in water with `drag`.
 
@@ -155,7 +154,7 @@ def hanging_line(
         tables["environment"] = {"water_density": density}
     tables["force"] = [line]
     fast = tau * float(np.sqrt(stretch))
-    scene = unnamed(
+    return unnamed(
         title=f"a mass on a dynamic line of {n} segments and {length:g} m",
         tables=tables,
         size=speed * length,
@@ -164,7 +163,6 @@ def hanging_line(
         truth=lambda t: length * solved(np.asarray(t) / tau),
         measured=position("bob", 0, 2, origin=bob),
     )
-    return beside(scene, kind)
 
 
 def _draw_shaken(g: np.random.Generator) -> dict[str, Any]:
@@ -176,7 +174,6 @@ def _draw_shaken(g: np.random.Generator) -> dict[str, Any]:
         amplitude=log_uniform(g, 1e-3, 0.03),
         rate=g.uniform(0.5, 2.0),
         segments=int(g.integers(4, 9)),
-        kind=neighbour(g),
     )
 
 
@@ -201,7 +198,6 @@ def shaken_line(
     amplitude: float,
     rate: float,
     segments: int,
-    kind: str | None = None,
 ) -> Scene:
     """The lowest node of a line that hangs between the ground and a point that is shaken sideways.
 
@@ -263,15 +259,7 @@ def shaken_line(
     top = [span * length, 0.0, 0.0]
     line = _line("top", [0.0, 0.0, 0.0], top, length, n, heavy, stiff, inner)
     tables = case(
-        [
-            body(
-                "top",
-                ["surge"],
-                heavy,
-                top,
-                velocity=[amplitude * rate * length / tau, 0.0, 0.0],
-            )
-        ],
+        [body("top", ["surge"], heavy, top, velocity=[amplitude * rate * length / tau, 0.0, 0.0])],
         15.0 * tau,
         samples=300,
         forces=[line],
@@ -290,7 +278,7 @@ def shaken_line(
         places = places.reshape(len(places), n + 1, 3)[:, low + 1, [0, 2]]
         return np.asarray(places - length * rest[low])
 
-    scene = unnamed(
+    return unnamed(
         title=f"a line of {n} segments and {length:g} m whose upper end is shaken",
         tables=tables,
         size=amplitude * length,
@@ -299,4 +287,3 @@ def shaken_line(
         truth=lambda t: length * solved(np.asarray(t) / tau),
         measured=lowest,
     )
-    return beside(scene, kind)

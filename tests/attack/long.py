@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 from tests.attack import truth
-from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.parts import GRAVITY, beside, body, case, joint, position
+from tests.attack.family import chosen, family, log_uniform, unnamed
+from tests.attack.parts import GRAVITY, body, case, joint, position
 
 from hydrodae.study.stability import Scene, truths
 
@@ -15,14 +15,14 @@ KIND = "long runs"
 
 
 def _draw_pendulum(g: np.random.Generator) -> dict[str, Any]:
-    return {"end": g.uniform(500.0, 5000.0), "angle": g.uniform(0.1, 3.0), "kind": neighbour(g)}
+    return {"end": g.uniform(500.0, 5000.0), "angle": g.uniform(0.1, 3.0)}
 
 
 @family(KIND, _draw_pendulum)
 @chosen(end=1000.0, angle=1.0)
 @chosen(end=5000.0, angle=0.5)
 @chosen(end=2000.0, angle=2.5, kind="barge")
-def long_pendulum(end: float, angle: float, kind: str | None = None) -> Scene:
+def long_pendulum(end: float, angle: float) -> Scene:
     """A pendulum of 1 m for thousands of swings."""
     start = [np.sin(angle), 0.0, -np.cos(angle)]
     rate = float(np.sqrt(GRAVITY))
@@ -37,7 +37,7 @@ def long_pendulum(end: float, angle: float, kind: str | None = None) -> Scene:
         samples=2000,
         joints=[joint("rod", "distance", "ground", "bob", point_b=start)],
     )
-    scene = unnamed(
+    return unnamed(
         title=f"a pendulum for {end:g} s",
         tables=tables,
         size=min(1.0, angle),
@@ -46,7 +46,6 @@ def long_pendulum(end: float, angle: float, kind: str | None = None) -> Scene:
         truth=place,
         measured=position("bob", 0, 2),
     )
-    return beside(scene, kind)
 
 
 def _draw_oscillator(g: np.random.Generator) -> dict[str, Any]:
@@ -56,7 +55,6 @@ def _draw_oscillator(g: np.random.Generator) -> dict[str, Any]:
         damping=float(g.choice([0.0, 1e-4, 1e-3])),
         release=log_uniform(g, 1e-3, 10.0),
         mass=log_uniform(g, 1e-3, 1e6),
-        kind=neighbour(g),
     )
 
 
@@ -64,9 +62,7 @@ def _draw_oscillator(g: np.random.Generator) -> dict[str, Any]:
 @chosen(rate=2.0, turns=1000.0, damping=0.0, release=0.5, mass=1.0)
 @chosen(rate=2.0, turns=3000.0, damping=1e-4, release=0.5, mass=1.0)
 @chosen(rate=20.0, turns=500.0, damping=1e-3, release=0.01, mass=100.0)
-def oscillator(
-    rate: float, turns: float, damping: float, release: float, mass: float, kind: str | None = None
-) -> Scene:
+def oscillator(rate: float, turns: float, damping: float, release: float, mass: float) -> Scene:
     """A mass on a spring for thousands of periods."""
     end = 2.0 * np.pi * turns / rate
     stiffness, friction = mass * rate**2, 2.0 * damping * rate * mass
@@ -78,7 +74,7 @@ def oscillator(
         damping=[friction] + [0.0] * 5,
     )
     mass_ = body("mass", "surge", mass, displacement=[release, 0.0, 0.0])
-    scene = unnamed(
+    return unnamed(
         title=f"an oscillator for {turns:g} periods",
         tables=case([mass_], end, forces=[mooring], samples=2000),
         size=release,
@@ -87,7 +83,6 @@ def oscillator(
         truth=truth.column(truth.oscillation(rate, damping, release, 0.0)),
         measured=position("mass", 0),
     )
-    return beside(scene, kind)
 
 
 def turned(p: Any, vector: Any) -> Any:
@@ -134,7 +129,6 @@ def _draw_nut(g: np.random.Generator) -> dict[str, Any]:
         rate=log_uniform(g, 0.5, 20.0),
         seed=log_uniform(g, 1e-3, 0.1),
         angle=g.uniform(50.0, 200.0),
-        kind=neighbour(g),
     )
 
 
@@ -142,9 +136,7 @@ def _draw_nut(g: np.random.Generator) -> dict[str, Any]:
 @chosen(inertia=[1.0, 2.0, 2.8], rate=5.0, seed=1e-2, angle=200.0)
 @chosen(inertia=[1.0, 1.5, 2.4], rate=1.0, seed=1e-3, angle=100.0)
 @chosen(inertia=[1.0, 2.0, 2.8], rate=5.0, seed=1e-2, angle=100.0, kind="ship")
-def tumbling_nut(
-    inertia: list[float], rate: float, seed: float, angle: float, kind: str | None = None
-) -> Scene:
+def tumbling_nut(inertia: list[float], rate: float, seed: float, angle: float) -> Scene:
     """A nut that spins about its middle axis and flips again and again (Dzhanibekov)."""
     rates = [seed * rate, rate, seed * rate]
     flow, start = tumbling(inertia, rates)
@@ -156,7 +148,7 @@ def tumbling_nut(
         rtol=1e-13,
     )
     nut = body("nut", "rigid", 1.0, inertia=inertia, angular_velocity=rates)
-    scene = unnamed(
+    return unnamed(
         title="a nut that flips",
         tables=case([nut], end, samples=500, gravity=0.0),
         size=1.0,
@@ -166,15 +158,11 @@ def tumbling_nut(
         measured=_axis,
         unit="-",
     )
-    return beside(scene, kind)
 
 
 def _draw_top(g: np.random.Generator) -> dict[str, Any]:
     return dict(
-        excess=g.uniform(1.02, 2.0),
-        tilt=log_uniform(g, 1e-4, 0.1),
-        end=g.uniform(5.0, 60.0),
-        kind=neighbour(g),
+        excess=g.uniform(1.02, 2.0), tilt=log_uniform(g, 1e-4, 0.1), end=g.uniform(5.0, 60.0)
     )
 
 
@@ -182,7 +170,7 @@ def _draw_top(g: np.random.Generator) -> dict[str, Any]:
 @chosen(excess=1.2, tilt=1e-2, end=30.0)
 @chosen(excess=1.05, tilt=1e-3, end=60.0)
 @chosen(excess=1.5, tilt=0.1, end=20.0, kind="ship")
-def sleeping_top(excess: float, tilt: float, end: float, kind: str | None = None) -> Scene:
+def sleeping_top(excess: float, tilt: float, end: float) -> Scene:
     """An upright top, `excess` times as fast as it must be to sleep, leaning by `tilt` [rad]."""
     mass, arm, axial, cross = 1.0, 0.1, 0.002, 0.004
     about = cross + mass * arm**2
@@ -209,7 +197,7 @@ def sleeping_top(excess: float, tilt: float, end: float, kind: str | None = None
     top = body("top", "rigid", mass, begin, inertia, angular_velocity=spin * up)
     top["principal_axes_deg"] = pose
     tables = case([top], end, samples=1000, joints=[joint("tip", "spherical", "ground", "top")])
-    scene = unnamed(
+    return unnamed(
         title=f"a sleeping top, {excess:g} times as fast as it must be",
         tables=tables,
         size=arm * min(1.0, 2.0 * tilt),
@@ -218,22 +206,18 @@ def sleeping_top(excess: float, tilt: float, end: float, kind: str | None = None
         truth=lambda t: solved(t) - begin,
         measured=position("top", 0, 1, 2, origin=begin),
     )
-    return beside(scene, kind)
 
 
 def _draw_spherical(g: np.random.Generator) -> dict[str, Any]:
     return dict(
-        angle=g.uniform(0.2, 1.5),
-        sideways=g.uniform(0.05, 1.0),
-        end=g.uniform(100.0, 600.0),
-        kind=neighbour(g),
+        angle=g.uniform(0.2, 1.5), sideways=g.uniform(0.05, 1.0), end=g.uniform(100.0, 600.0)
     )
 
 
 @family(KIND, _draw_spherical)
 @chosen(angle=0.8, sideways=0.3, end=300.0)
 @chosen(angle=1.2, sideways=0.1, end=200.0, kind="rotor")
-def spherical_pendulum(angle: float, sideways: float, end: float, kind: str | None = None) -> Scene:
+def spherical_pendulum(angle: float, sideways: float, end: float) -> Scene:
     """A bob on a rod of 1 m pushed sideways [m/s]: r'' = -g z - (v^2 - g r_z) r on the sphere."""
     start = np.array([np.sin(angle), 0.0, -np.cos(angle)])
 
@@ -251,7 +235,7 @@ def spherical_pendulum(angle: float, sideways: float, end: float, kind: str | No
         samples=1000,
         joints=[joint("rod", "distance", "ground", "bob", point_b=start)],
     )
-    scene = unnamed(
+    return unnamed(
         title="a spherical pendulum",
         tables=tables,
         size=min(1.0, angle),
@@ -260,4 +244,3 @@ def spherical_pendulum(angle: float, sideways: float, end: float, kind: str | No
         truth=exact,
         measured=position("bob", 0, 1, 2),
     )
-    return beside(scene, kind)

@@ -21,7 +21,7 @@ def _draw(g: np.random.Generator) -> dict[str, Any]:
     return dict(which=HARD[g.integers(len(HARD))], kind=NEIGHBOURS[g.integers(len(NEIGHBOURS))])
 
 
-@family(KIND, _draw)
+@family(KIND, _draw, alone=True)
 @chosen(which="four_bar", kind="ship")
 @chosen(which="four_bar", kind="barge")
 @chosen(which="four_bar", kind="rotor")
@@ -45,7 +45,7 @@ def _draw_two(g: np.random.Generator) -> dict[str, Any]:
     )
 
 
-@family(KIND, _draw_two)
+@family(KIND, _draw_two, alone=True)
 @chosen(small=1e-2, large=100.0, angle=1.0)
 @chosen(small=1e-3, large=1e4, angle=0.01)
 def two_pendulums(small: float, large: float, angle: float) -> Scene:

@@ -8,8 +8,8 @@ from typing import Any
 import h5py
 import numpy as np
 from tests.attack import sea, truth
-from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.parts import beside, case, position
+from tests.attack.family import chosen, family, log_uniform, unnamed
+from tests.attack.parts import case, position
 
 from hydrodae.study.stability import Scene, past, truths, water
 
@@ -32,7 +32,7 @@ def flipped(path: Path, factor: float) -> None:
 
 
 def _draw_flip(g: np.random.Generator) -> dict[str, Any]:
-    return dict(rung=RUNGS[g.integers(3)], factor=-log_uniform(g, 0.05, 1.0), kind=neighbour(g))
+    return dict(rung=RUNGS[g.integers(3)], factor=-log_uniform(g, 0.05, 1.0))
 
 
 @family(KIND, _draw_flip)
@@ -43,10 +43,10 @@ def _draw_flip(g: np.random.Generator) -> dict[str, Any]:
 @chosen(rung="convolution", factor=-0.1)
 @chosen(rung="constant", factor=-0.1)
 @chosen(rung="exponential", factor=-1.0, kind="ship")
-def flipped_sphere(rung: str, factor: float, kind: str | None = None) -> Scene:
+def flipped_sphere(rung: str, factor: float) -> Scene:
     """The decay of the sphere, its radiation times a negative factor."""
     tables = case([sea.float_body(displacement=[0.0, 0.0, 1.0])], 60.0, hydro=_options(rung))
-    scene = unnamed(
+    return unnamed(
         title=f"a sphere whose {rung} radiation is flipped ({factor:g})",
         tables=tables,
         size=1.0,
@@ -57,14 +57,13 @@ def flipped_sphere(rung: str, factor: float, kind: str | None = None) -> Scene:
         impossible=FEEDS,
         database=lambda path: flipped(path, factor),
     )
-    return beside(scene, kind)
 
 
 def _draw_band(g: np.random.Generator) -> dict[str, Any]:
     return {"rung": RUNGS[g.integers(3)], "excess": g.uniform(1.5, 4.0)}
 
 
-@family(KIND, _draw_band)
+@family(KIND, _draw_band, alone=True)
 @chosen(rung="exponential", excess=2.0)
 @chosen(rung="convolution", excess=2.0)
 @chosen(rung="constant", excess=2.0)
@@ -114,14 +113,14 @@ def band_that_feeds(rung: str, excess: float) -> Scene:
 
 
 def _draw_false(g: np.random.Generator) -> dict[str, Any]:
-    return {"residue": -log_uniform(g, 20.0, 2000.0), "kind": neighbour(g)}
+    return {"residue": -log_uniform(g, 20.0, 2000.0)}
 
 
 @family(KIND, _draw_false)
 @chosen(residue=-800.0)
 @chosen(residue=-100.0)
 @chosen(residue=-800.0, kind="ship")
-def falsely_passive(residue: float, kind: str | None = None) -> Scene:
+def falsely_passive(residue: float) -> Scene:
     """A float whose memory says that it is passive and is not."""
 
     def write(path: Path) -> None:
@@ -129,7 +128,7 @@ def falsely_passive(residue: float, kind: str | None = None) -> Scene:
         with h5py.File(path, "r+") as file:
             file["memory/heave"].attrs["passive"] = True
 
-    scene = unnamed(
+    return unnamed(
         title="a memory with a false attribute `passive`",
         tables=water.float_tables(),
         size=1.0,
@@ -140,18 +139,17 @@ def falsely_passive(residue: float, kind: str | None = None) -> Scene:
         impossible=FEEDS,
         database=write,
     )
-    return beside(scene, kind)
 
 
 def _draw_sound(g: np.random.Generator) -> dict[str, Any]:
-    return {"release": log_uniform(g, 1e-3, 1.0), "kind": neighbour(g)}
+    return {"release": log_uniform(g, 1e-3, 1.0)}
 
 
 @family(KIND, _draw_sound)
 @chosen(release=1.0)
 @chosen(release=1e-3)
 @chosen(release=0.1, kind="ship")
-def sound_sphere(release: float, kind: str | None = None) -> Scene:
+def sound_sphere(release: float) -> Scene:
     """The decay of the sphere as it is (a check must not refuse it)."""
     s = sea.sphere()
     exact = truth.integrated(
@@ -162,7 +160,7 @@ def sound_sphere(release: float, kind: str | None = None) -> Scene:
         rtol=1e-10,
     )
     tables = case([sea.float_body(displacement=[0.0, 0.0, release])], 40.0)
-    scene = unnamed(
+    return unnamed(
         title=f"decay of the sphere from {release:g} m",
         tables=tables,
         size=release,
@@ -172,10 +170,9 @@ def sound_sphere(release: float, kind: str | None = None) -> Scene:
         measured=position("sphere", 2, origin=[0.0, 0.0, -sea.DRAFT]),
         database=sea.stored,
     )
-    return beside(scene, kind)
 
 
-@family(KIND, lambda g: {"rung": RUNGS[g.integers(3)]})
+@family(KIND, lambda g: {"rung": RUNGS[g.integers(3)]}, alone=True)
 @chosen(rung="convolution")
 @chosen(rung="constant")
 def sound_float(rung: str) -> Scene:

@@ -8,8 +8,8 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.optimize import root
 from tests.attack import truth
-from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.parts import GRAVITY, beside, body, both, case, position
+from tests.attack.family import chosen, family, log_uniform, unnamed
+from tests.attack.parts import GRAVITY, body, both, case, position
 
 from hydrodae.study.stability import Scene
 
@@ -24,7 +24,6 @@ def _draw_winch(g: np.random.Generator) -> dict[str, Any]:
         at=g.uniform(5.0, 50.0),
         heave=g.uniform(-0.3, 0.3),
         over=g.uniform(1.0, 20.0),
-        kind=neighbour(g),
     )
 
 
@@ -34,13 +33,7 @@ def _draw_winch(g: np.random.Generator) -> dict[str, Any]:
 @chosen(length=100.0, mass=1e6, stretch=0.01, at=5.0, heave=-0.1, over=2.0)
 @chosen(length=10.0, mass=100.0, stretch=0.05, at=20.0, heave=-0.3, over=10.0, kind="ship")
 def winch_lift(
-    length: float,
-    mass: float,
-    stretch: float,
-    at: float,
-    heave: float,
-    over: float,
-    kind: str | None = None,
+    length: float, mass: float, stretch: float, at: float, heave: float, over: float
 ) -> Scene:
     """A load that hangs at rest until a winch lifts or lowers it by `heave` lengths."""
     tau = float(np.sqrt(stretch * length / GRAVITY))  # of the spring of the rope
@@ -83,7 +76,7 @@ def winch_lift(
         forces=[rope],
         samples=400,
     )
-    scene = unnamed(
+    return unnamed(
         title=f"a winch lifts {mass:g} kg by {heave:g} of {length:g} m",
         tables=tables,
         size=abs(heave) * length,
@@ -92,7 +85,6 @@ def winch_lift(
         truth=lambda t: length * solved(np.asarray(t) / tau),
         measured=position("load", 2, origin=[0.0, 0.0, -start * length]),
     )
-    return beside(scene, kind)
 
 
 def _draw_atwood(g: np.random.Generator) -> dict[str, Any]:
@@ -101,7 +93,6 @@ def _draw_atwood(g: np.random.Generator) -> dict[str, Any]:
         mass=log_uniform(g, 1e-3, 1e6),
         ratio=g.uniform(1.05, 3.0),
         stretch=log_uniform(g, 1e-4, 0.1),
-        kind=neighbour(g),
     )
 
 
@@ -110,9 +101,7 @@ def _draw_atwood(g: np.random.Generator) -> dict[str, Any]:
 @chosen(length=1e-3, mass=1e-3, ratio=1.2, stretch=0.05)
 @chosen(length=100.0, mass=1e6, ratio=2.0, stretch=1e-3)
 @chosen(length=10.0, mass=1.0, ratio=1.1, stretch=0.01, kind="rotor")
-def atwood(
-    length: float, mass: float, ratio: float, stretch: float, kind: str | None = None
-) -> Scene:
+def atwood(length: float, mass: float, ratio: float, stretch: float) -> Scene:
     """Two masses on an elastic rope over a sheave, from rest and unstretched."""
     heavy = ratio * mass
     stiffness = mass * GRAVITY / (stretch * length)  # of the whole rope [N/m]
@@ -138,7 +127,7 @@ def atwood(
     tables = case(
         [body("light", "heave", mass, at), body("heavy", "heave", heavy, at)], end, forces=[rope]
     )
-    scene = unnamed(
+    return unnamed(
         title=f"an Atwood machine of {mass:g} kg on an elastic rope",
         tables=tables,
         size=0.5 * length,
@@ -147,7 +136,6 @@ def atwood(
         truth=place,
         measured=both(position("light", 2, origin=at), position("heavy", 2, origin=at)),
     )
-    return beside(scene, kind)
 
 
 def suspended(h: float, v: float, n: float, stiff: float) -> tuple[float, float]:
@@ -165,7 +153,6 @@ def _draw_catenary(g: np.random.Generator) -> dict[str, Any]:
         mass=g.uniform(2.0, 50.0),
         stiff=log_uniform(g, 50.0, 1e4),
         release=g.uniform(-0.03, 0.03),
-        kind=neighbour(g),
     )
 
 
@@ -174,9 +161,7 @@ def _draw_catenary(g: np.random.Generator) -> dict[str, Any]:
 @chosen(length=1e-3, heavy=1e-3, mass=3.0, stiff=500.0, release=-0.03)
 @chosen(length=500.0, heavy=1e3, mass=20.0, stiff=1e3, release=0.02)
 @chosen(length=100.0, heavy=1e3, mass=10.0, stiff=300.0, release=0.03, kind="ship")
-def catenary_pair(
-    length: float, heavy: float, mass: float, stiff: float, release: float, kind: str | None = None
-) -> Scene:
+def catenary_pair(length: float, heavy: float, mass: float, stiff: float, release: float) -> Scene:
     """A mass between two hanging lines that swings in surge.
 
     `mass` and `stiff` count in weights of a line over g, and in its weight.
@@ -227,7 +212,7 @@ def catenary_pair(
         displacement=[release * length, 0.0, 0.0],
     )
     tables = case([mass_], 60.0 * swing * tau, forces=lines, samples=400)
-    scene = unnamed(
+    return unnamed(
         title=f"a mass between two hanging lines of {length:g} m",
         tables=tables,
         size=abs(release) * length,
@@ -236,4 +221,3 @@ def catenary_pair(
         truth=lambda t: length * solved(np.asarray(t) / tau),
         measured=position("mass", 0),
     )
-    return beside(scene, kind)

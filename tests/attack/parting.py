@@ -6,10 +6,11 @@ from typing import Any
 
 import numpy as np
 from tests.attack import truth
-from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.parts import GRAVITY, Array, Table, beside, body, both, case, position
+from tests.attack.family import chosen, family, log_uniform, unnamed
+from tests.attack.parts import GRAVITY, Table, body, both, case, position
 
 from hydrodae.study.stability import Scene
+from hydrodae.support.arrays import Array
 
 KIND = "moorings"
 LENGTH = 10.0  #: of the ropes [m]
@@ -129,7 +130,7 @@ def _draw_bundle(g: np.random.Generator) -> dict[str, Any]:
         for _ in range(n)
     ]
     ropes[0][1] = 0.0
-    return {"mass": mass, "ropes": ropes, "end": g.uniform(1.0, 3.0), "kind": neighbour(g)}
+    return {"mass": mass, "ropes": ropes, "end": g.uniform(1.0, 3.0)}
 
 
 @family(KIND, _draw_bundle)
@@ -148,14 +149,7 @@ def _draw_bundle(g: np.random.Generator) -> dict[str, Any]:
 @chosen(mass=1e-6, ropes=[[1e-2, 0.0, 0.0, 1.5e-6 * GRAVITY]], end=0.3)
 @chosen(mass=0.01, ropes=[[10.0, 0.0, 0.0, 0.015 * GRAVITY]], end=1.0, kind="ship")
 @chosen(mass=1e7, ropes=[[5e6, 0.0, 0.0, 1.2e7 * GRAVITY]], end=12.0)
-def rope_bundle(
-    mass: float,
-    ropes: list[Any],
-    end: float,
-    x: float = 0.0,
-    v: float = 0.0,
-    kind: str | None = None,
-) -> Scene:
+def rope_bundle(mass: float, ropes: list[Any], end: float, x: float = 0.0, v: float = 0.0) -> Scene:
     """A mass on ropes side by side, which part as it falls into them."""
     bundle = Bundle(mass, ropes)
     forces = [
@@ -173,7 +167,7 @@ def rope_bundle(
     start = {"displacement": [0.0, 0.0, -x], "velocity": [0.0, 0.0, -v]}
     tables = case([body("load", "heave", mass, **start)], end, forces=forces, samples=300)
     size = max(1.0, 2.0 * GRAVITY / bundle.fastest**2)  # how far soft ropes give way
-    scene = unnamed(
+    return unnamed(
         title=f"{mass:g} kg on {len(ropes)} ropes that part",
         tables=tables,
         size=size,
@@ -182,7 +176,6 @@ def rope_bundle(
         truth=bundle.truth(x, v),
         measured=position("load", 2),
     )
-    return beside(scene, kind)
 
 
 def _draw_apart(g: np.random.Generator) -> dict[str, Any]:
@@ -194,7 +187,7 @@ def _draw_apart(g: np.random.Generator) -> dict[str, Any]:
     )
 
 
-@family(KIND, _draw_apart)
+@family(KIND, _draw_apart, alone=True)
 @chosen(one=1.0, two=3.0, speed=1.0, bears=0.5)
 @chosen(one=1.0, two=3.0, speed=1.0, bears=1.5)
 @chosen(one=1e-3, two=1e7, speed=1.0, bears=0.3)
@@ -237,13 +230,13 @@ def tied_pair(one: float, two: float, speed: float, bears: float) -> Scene:
 
 
 def _draw_brief(g: np.random.Generator) -> dict[str, Any]:
-    return dict(over=log_uniform(g, 1e-6, 0.3), mass=log_uniform(g, 1e-3, 1e6), kind=neighbour(g))
+    return dict(over=log_uniform(g, 1e-6, 0.3), mass=log_uniform(g, 1e-3, 1e6))
 
 
 @family(KIND, _draw_brief)
 @chosen(over=0.1, mass=10.0)
 @chosen(over=0.01, mass=1e4, kind="rotor")
-def brief_overload(over: float, mass: float, kind: str | None = None) -> Scene:
+def brief_overload(over: float, mass: float) -> Scene:
     """A mass that drops into a rope whose largest tension passes what it bears by a part `over`."""
     w = 10.0
     high = GRAVITY / w**2
@@ -265,7 +258,7 @@ def brief_overload(over: float, mass: float, kind: str | None = None) -> Scene:
         breaking=2.0 * mass * GRAVITY * (1.0 - over),
     )
     tables = case([body("load", "heave", mass)], 1.5, forces=[tie], samples=300)
-    scene = unnamed(
+    return unnamed(
         title=f"a rope overloaded by {over:g} for a moment",
         tables=tables,
         size=2.0 * high,
@@ -274,4 +267,3 @@ def brief_overload(over: float, mass: float, kind: str | None = None) -> Scene:
         truth=place,
         measured=position("load", 2),
     )
-    return beside(scene, kind)

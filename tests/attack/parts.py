@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from hydrodae.results import Results
 from hydrodae.study.stability import Scene
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 Table = dict[str, Any]
 Vector = Sequence[float] | NDArray[Any]
 GRAVITY = 9.81

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 from tests.attack import truth
-from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.parts import GRAVITY, ORIGIN, beside, body, case, position, spring
+from tests.attack.family import chosen, family, log_uniform, unnamed
+from tests.attack.parts import GRAVITY, ORIGIN, body, case, position, spring
 
 from hydrodae.results import Results
 from hydrodae.study.stability import Scene
@@ -22,7 +22,6 @@ def _draw_vector(g: np.random.Generator) -> dict[str, Any]:
         axis=tuple(float(x) for x in axis),
         amplitude=log_uniform(g, 0.1, 100.0),
         rate=log_uniform(g, 0.05, 20.0),
-        kind=neighbour(g),
     )
 
 
@@ -31,9 +30,7 @@ def _draw_vector(g: np.random.Generator) -> dict[str, Any]:
 @chosen(how="bushing", axis=(2.0, -3.0, 6.0), amplitude=3.2, rate=0.5)
 @chosen(how="pto_rotary", axis=(1.0, 0.0, 0.0), amplitude=40.0, rate=1.0)
 @chosen(how="mooring_matrix", axis=(1.0, 1.0, 0.0), amplitude=20.0, rate=5.0, kind="ship")
-def wound_vector(
-    how: str, axis: tuple[float, ...], amplitude: float, rate: float, kind: str | None = None
-) -> Scene:
+def wound_vector(how: str, axis: tuple[float, ...], amplitude: float, rate: float) -> Scene:
     """A free body on a torsion spring about one axis, by an element that sees rotation vectors."""
     e, inertia = np.asarray(axis) / np.linalg.norm(axis), 2.0
     stiffness = np.zeros((6, 6))
@@ -56,7 +53,7 @@ def wound_vector(
         return np.asarray(results["bodies/wheel/rotation"].values @ e)[:, None]
 
     tables = case([wheel], 25.0 / rate, gravity=0.0, forces=[force], samples=200)
-    scene = unnamed(
+    return unnamed(
         title=f"a rotation vector wound up by {amplitude:g} rad",
         tables=tables,
         size=amplitude,
@@ -66,7 +63,6 @@ def wound_vector(
         measured=angle,
         unit="rad",
     )
-    return beside(scene, kind)
 
 
 def _draw_place(g: np.random.Generator) -> dict[str, Any]:
@@ -74,16 +70,13 @@ def _draw_place(g: np.random.Generator) -> dict[str, Any]:
         speed=tuple(float(x) for x in g.normal(size=3)),
         rate=log_uniform(g, 0.1, 20.0),
         damping=float(g.choice([0.0, 0.1, 0.7])),
-        kind=neighbour(g),
     )
 
 
 @family(KIND, _draw_place)
 @chosen(speed=(1.0, -2.0, 0.5), rate=2.0)
 @chosen(speed=(0.0, 0.0, 1.0), rate=0.5, damping=0.1, kind="barge")
-def spring_at_one_place(
-    speed: tuple[float, ...], rate: float, damping: float = 0.0, kind: str | None = None
-) -> Scene:
+def spring_at_one_place(speed: tuple[float, ...], rate: float, damping: float = 0.0) -> Scene:
     """A spring without length leaves the place where its points coincide, and comes back to it."""
     mass, v = 2.0, np.asarray(speed)
     bob = body("bob", "point", mass, [1.0, 2.0, 3.0], velocity=v)
@@ -98,7 +91,7 @@ def spring_at_one_place(
     )
     along = truth.oscillation(rate, damping, 0.0, 1.0)
     tables = case([bob], 20.0 / rate, gravity=0.0, forces=[force], samples=150)
-    scene = unnamed(
+    return unnamed(
         title="a spring whose points coincide",
         tables=tables,
         size=float(np.linalg.norm(v)) / rate,
@@ -107,22 +100,17 @@ def spring_at_one_place(
         truth=lambda t: np.outer(np.asarray(along(t)), v),
         measured=position("bob", 0, 1, 2, origin=(1.0, 2.0, 3.0)),
     )
-    return beside(scene, kind)
 
 
 def _draw_fold(g: np.random.Generator) -> dict[str, Any]:
     mu = g.uniform(0.02, 0.3)
-    return {
-        "mu": mu,
-        "ratio": float(np.exp(mu * np.pi * g.uniform(1.3, 3.0))),
-        "kind": neighbour(g),
-    }
+    return {"mu": mu, "ratio": float(np.exp(mu * np.pi * g.uniform(1.3, 3.0)))}
 
 
 @family(KIND, _draw_fold)
 @chosen(mu=0.1, ratio=2.0)
 @chosen(mu=0.2, ratio=4.0, kind="ship")
-def folded_rope(mu: float, ratio: float, kind: str | None = None) -> Scene:
+def folded_rope(mu: float, ratio: float) -> Scene:
     """Masses on a rope that turns back by 180 degrees exactly: a = g (r - E) / (r + E)."""
     light, grip = 10.0, np.exp(mu * np.pi)
     fall = GRAVITY * (ratio - grip) / (ratio + grip)
@@ -144,7 +132,7 @@ def folded_rope(mu: float, ratio: float, kind: str | None = None) -> Scene:
         pretension=tension,
     )
     tables = case(bodies, end, gravity=GRAVITY, forces=[rope], samples=60)
-    scene = unnamed(
+    return unnamed(
         title=f"a rope folded over a bar with friction {mu:g}",
         tables=tables,
         size=3.0,
@@ -153,4 +141,3 @@ def folded_rope(mu: float, ratio: float, kind: str | None = None) -> Scene:
         truth=truth.column(lambda t: 0.5 * fall * t**2),
         measured=position("a", 2),
     )
-    return beside(scene, kind)

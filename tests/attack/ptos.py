@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 from tests.attack import sea, truth
-from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
+from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.long import turned
-from tests.attack.parts import Z, beside, body, case, joint, position
+from tests.attack.parts import Z, body, case, joint, position
 from tests.attack.slide import LARGE, SMALL, UNIT, Scale, block, drawn, placed, spring
 
 from hydrodae.study.stability import Scene
@@ -50,7 +50,6 @@ def _draw_general(g: np.random.Generator) -> dict[str, Any]:
         limit=g.uniform(0.1, 0.5),
         power=g.uniform(0.03, 0.3),
         end=g.uniform(15.0, 60.0),
-        kind=neighbour(g),
     )
 
 
@@ -59,9 +58,7 @@ def _draw_general(g: np.random.Generator) -> dict[str, Any]:
 @chosen(scale=SMALL, exponent=1.0, limit=0.3, power=0.2, end=30.0)
 @chosen(scale=LARGE, exponent=1.5, limit=0.15, power=0.05, end=30.0)
 @chosen(scale=UNIT, exponent=2.0, limit=0.2, power=0.1, end=30.0, kind="ship")
-def general_pto(
-    scale: Three, exponent: float, limit: float, power: float, end: float, kind: str | None = None
-) -> Scene:
+def general_pto(scale: Three, exponent: float, limit: float, power: float, end: float) -> Scene:
     """A swing that a machine with limits of load and power takes."""
     s = Scale(*scale)
 
@@ -71,8 +68,7 @@ def general_pto(
     solved = truth.integrated(rates, [1.0, 0.0], lambda _t, y: [y[0]], longest=0.01)
     keys = general_keys(exponent, limit, power, s.force, s.length, s.rate)
     forces = [spring(s), {**keys, "joint": "slide"}]
-    scene = block(s, f"a general power take-off, |v|^{exponent:g}", forces, placed(s, solved), end)
-    return beside(scene, kind)
+    return block(s, f"a general power take-off, |v|^{exponent:g}", forces, placed(s, solved), end)
 
 
 def hydraulic_law(v: float, high: float, low: float, leak: float) -> tuple[float, float, float]:
@@ -102,9 +98,7 @@ def hydraulic_keys(leak: float, force: float, length: float, rate: float) -> dic
 
 
 def _draw_hydraulic(g: np.random.Generator) -> dict[str, Any]:
-    return dict(
-        scale=drawn(g), leak=log_uniform(g, 0.02, 1.0), end=g.uniform(10.0, 60.0), kind=neighbour(g)
-    )
+    return dict(scale=drawn(g), leak=log_uniform(g, 0.02, 1.0), end=g.uniform(10.0, 60.0))
 
 
 @family(KIND, _draw_hydraulic)
@@ -112,7 +106,7 @@ def _draw_hydraulic(g: np.random.Generator) -> dict[str, Any]:
 @chosen(scale=SMALL, leak=0.5, end=20.0)
 @chosen(scale=LARGE, leak=0.05, end=20.0)
 @chosen(scale=LARGE, leak=0.2, end=20.0, kind="rotor")
-def hydraulic_pto(scale: Three, leak: float, end: float, kind: str | None = None) -> Scene:
+def hydraulic_pto(scale: Three, leak: float, end: float) -> Scene:
     """A swing that pumps between two accumulators."""
     s = Scale(*scale)
 
@@ -123,8 +117,7 @@ def hydraulic_pto(scale: Three, leak: float, end: float, kind: str | None = None
     solved = truth.integrated(rates, [1.0, 0.0, HIGH, LOW], lambda _t, y: [y[0]], longest=0.01)
     keys = hydraulic_keys(leak, s.force, s.length, s.rate)
     forces = [spring(s), {**keys, "joint": "slide"}]
-    scene = block(s, "a hydraulic power take-off", forces, placed(s, solved), end)
-    return beside(scene, kind)
+    return block(s, "a hydraulic power take-off", forces, placed(s, solved), end)
 
 
 def _draw_rotary(g: np.random.Generator) -> dict[str, Any]:
@@ -133,7 +126,6 @@ def _draw_rotary(g: np.random.Generator) -> dict[str, Any]:
         rate=log_uniform(g, 0.1, 30.0),
         spin=list(g.uniform(-0.6, 0.6, 3)),
         end=g.uniform(10.0, 60.0),
-        kind=neighbour(g),
     )
 
 
@@ -141,9 +133,7 @@ def _draw_rotary(g: np.random.Generator) -> dict[str, Any]:
 @chosen(inertia=1.0, rate=2.0, spin=[0.3, 0.5, -0.2], end=30.0)
 @chosen(inertia=1e-6, rate=20.0, spin=[0.2, -0.4, 0.3], end=30.0)
 @chosen(inertia=1e6, rate=0.5, spin=[0.5, 0.5, 0.5], end=60.0, kind="ship")
-def rotary_pto(
-    inertia: float, rate: float, spin: list[float], end: float, kind: str | None = None
-) -> Scene:
+def rotary_pto(inertia: float, rate: float, spin: list[float], end: float) -> Scene:
     """A body on a ball joint whose roll, pitch and yaw have springs and dampers."""
     moments = np.array([1.0, 1.3, 1.6])
     springs, dampers = np.array([1.0, 2.0, 1.5]), np.array([0.05, 0.1, 0.0])
@@ -195,7 +185,7 @@ def rotary_pto(
         gravity=0.0,
         samples=400,
     )
-    scene = unnamed(
+    return unnamed(
         title="a rotary power take-off about three axes",
         tables=tables,
         size=float(np.linalg.norm(spin)),
@@ -205,7 +195,6 @@ def rotary_pto(
         measured=axes,
         unit="-",
     )
-    return beside(scene, kind)
 
 
 def _draw_wave(g: np.random.Generator) -> dict[str, Any]:
@@ -213,7 +202,6 @@ def _draw_wave(g: np.random.Generator) -> dict[str, Any]:
         how=("general", "hydraulic", "stop", "lugre")[g.integers(4)],
         height=log_uniform(g, 1e-3, 1.5),
         period=g.uniform(3.5, 9.0),
-        kind=neighbour(g),
     )
 
 
@@ -224,7 +212,7 @@ def _draw_wave(g: np.random.Generator) -> dict[str, Any]:
 @chosen(how="stop", height=1.0, period=4.5)
 @chosen(how="lugre", height=0.5, period=5.0)
 @chosen(how="hydraulic", height=0.01, period=6.0, kind="barge")
-def pto_in_waves(how: str, height: float, period: float, kind: str | None = None) -> Scene:
+def pto_in_waves(how: str, height: float, period: float) -> Scene:
     """The sphere in a regular wave with a machine, a compliant stop or bristles on its guide."""
     s, ramp = sea.sphere(), 20.0
     w, n = 2.0 * np.pi / period, 2 + 2 * len(s.poles)
@@ -269,7 +257,7 @@ def pto_in_waves(how: str, height: float, period: float, kind: str | None = None
         sea={"ramp": ramp},
         wave=[wave],
     )
-    scene = unnamed(
+    return unnamed(
         title=f"the sphere with {how} in waves of {height:g} m",
         tables=tables,
         size=size,
@@ -279,7 +267,6 @@ def pto_in_waves(how: str, height: float, period: float, kind: str | None = None
         measured=position("sphere", 2, origin=[0.0, 0.0, -sea.DRAFT]),
         database=sea.stored,
     )
-    return beside(scene, kind)
 
 
 def _laws(how: str, force: float, length: float, rate: float) -> tuple[dict[str, Any], Any]:

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.polynomial import Polynomial
 from scipy.interpolate import CubicSpline
 from tests.attack import truth
-from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.parts import GRAVITY, beside, body, both, case, driven, joint, position, spring
+from tests.attack.family import chosen, family, log_uniform, unnamed
+from tests.attack.parts import GRAVITY, body, both, case, driven, joint, position, spring
 
 from hydrodae.study.stability import Scene
 
@@ -26,7 +26,6 @@ def _draw_stroke(g: np.random.Generator) -> dict[str, Any]:
         rate=log_uniform(g, 0.5, 20.0),
         after=g.uniform(5.0, 30.0),
         hanging=bool(g.integers(2)),
-        kind=neighbour(g),
     )
 
 
@@ -110,7 +109,6 @@ def table_stroke(
     rate: float,
     after: float,
     hanging: bool = False,
-    kind: str | None = None,
 ) -> Scene:
     """One stroke in a table with a point every half second."""
     end = float(np.ceil(rest + stroke + after))
@@ -123,7 +121,7 @@ def table_stroke(
         return table(t), table(t, 1), table(t, 2)
 
     near = time[(time > rest - 6.0) & (time < rest + stroke + 6.0)]
-    scene = _carried(
+    return _carried(
         f,
         breaks=near,
         drive={"time": time, "values": values},
@@ -136,7 +134,6 @@ def table_stroke(
         title="a table drive with one stroke after a long rest",
         samples=2 * int(end),
     )
-    return beside(scene, kind)
 
 
 def _draw_pulse(g: np.random.Generator) -> dict[str, Any]:
@@ -149,7 +146,6 @@ def _draw_pulse(g: np.random.Generator) -> dict[str, Any]:
         after=g.uniform(5.0, 20.0),
         hanging=bool(g.integers(2)),
         value_only=bool(g.integers(2)),
-        kind=neighbour(g),
     )
 
 
@@ -177,7 +173,6 @@ def python_pulse(
     after: float,
     hanging: bool = False,
     value_only: bool = False,
-    kind: str | None = None,
 ) -> Scene:
     """A pulse late in a Python drive, which nobody knows ahead of time."""
     end = rest + width + after
@@ -191,7 +186,7 @@ def python_pulse(
         values = f(t)
         return float(values[0]) if value_only else tuple(float(v) for v in values)
 
-    scene = _carried(
+    return _carried(
         f,
         breaks=[rest, rest + width],
         drive={"python": True},
@@ -205,4 +200,3 @@ def python_pulse(
         samples=int(min(2000, 20 * end / width)),
         drives={"motor": drive},
     )
-    return beside(scene, kind)

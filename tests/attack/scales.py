@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 from tests.attack import truth
-from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.parts import GRAVITY, beside, body, both, case, joint, position, spring
+from tests.attack.family import chosen, family, log_uniform, unnamed
+from tests.attack.parts import GRAVITY, body, both, case, joint, position, spring
 
 from hydrodae.study.stability import Scene, truths
 
@@ -22,7 +22,6 @@ def _draw_spring(g: np.random.Generator) -> dict[str, Any]:
         length=length,
         release=length * log_uniform(g, 1e-6, 0.3),
         damping=float(g.choice([0.0, 0.02])),
-        kind=neighbour(g),
     )
 
 
@@ -35,12 +34,7 @@ def _draw_spring(g: np.random.Generator) -> dict[str, Any]:
 @chosen(mass=1.0, rate=1e3, length=1.0, release=1e-3, damping=0.02)
 @chosen(mass=100.0, rate=0.01, length=1.0, release=1e-3)
 def mass_on_spring(
-    mass: float,
-    rate: float,
-    length: float,
-    release: float,
-    damping: float = 0.0,
-    kind: str | None = None,
+    mass: float, rate: float, length: float, release: float, damping: float = 0.0
 ) -> Scene:
     """A mass on a spring, let go: x = a cos(w t)."""
     end = 60.0 / rate
@@ -55,7 +49,7 @@ def mass_on_spring(
         stiffness,
         2.0 * damping * rate * mass,
     )
-    scene = unnamed(
+    return unnamed(
         title=f"a mass of {mass:g} kg released by {release:g} m",
         tables=case([mass_], end, forces=[link]),
         size=release,
@@ -64,7 +58,6 @@ def mass_on_spring(
         truth=truth.column(truth.oscillation(rate, damping, release, 0.0)),
         measured=position("mass", 0, origin=[length, 0.0, 0.0]),
     )
-    return beside(scene, kind)
 
 
 def _draw_pendulum(g: np.random.Generator) -> dict[str, Any]:
@@ -73,7 +66,6 @@ def _draw_pendulum(g: np.random.Generator) -> dict[str, Any]:
         mass=log_uniform(g, 1e-6, 1e9),
         angle=log_uniform(g, 1e-6, 2.0),
         rigid=bool(g.integers(2)),
-        kind=neighbour(g),
     )
 
 
@@ -84,9 +76,7 @@ def _draw_pendulum(g: np.random.Generator) -> dict[str, Any]:
 @chosen(length=1e6, mass=1e9, angle=1.0)
 @chosen(length=10.0, mass=1e5, angle=1e-4, rigid=True)
 @chosen(length=0.1, mass=0.01, angle=0.5, rigid=True, kind="ship")
-def pendulum(
-    length: float, mass: float, angle: float, rigid: bool = False, kind: str | None = None
-) -> Scene:
+def pendulum(length: float, mass: float, angle: float, rigid: bool = False) -> Scene:
     """A pendulum of any size: a point on a rod, or a bar on a hinge."""
     start = np.array([np.sin(angle), 0.0, -np.cos(angle)])
     if rigid:  # a bar of twice that length, about its end
@@ -106,7 +96,7 @@ def pendulum(
         middle = 0.5 * (a + angle)
         return length * np.column_stack([rise * np.cos(middle), rise * np.sin(middle)])
 
-    scene = unnamed(
+    return unnamed(
         title=f"a pendulum of {length:g} m let go at {angle:g} rad",
         tables=case(bodies, end, joints=joints),
         size=length * min(2.0, angle),
@@ -115,7 +105,6 @@ def pendulum(
         truth=place,
         measured=position("bob", 0, 2, origin=at),
     )
-    return beside(scene, kind)
 
 
 def _draw_pair(g: np.random.Generator) -> dict[str, Any]:
@@ -124,7 +113,6 @@ def _draw_pair(g: np.random.Generator) -> dict[str, Any]:
         rate=log_uniform(g, 0.01, 1e3),
         length=log_uniform(g, 1e-6, 1e6),
         stretch=log_uniform(g, 1e-6, 0.3),
-        kind=neighbour(g),
     )
 
 
@@ -132,9 +120,7 @@ def _draw_pair(g: np.random.Generator) -> dict[str, Any]:
 @chosen(masses=(1.0, 3.0), rate=6.0, length=1.0, stretch=1e-4)
 @chosen(masses=(1e-6, 1e-6), rate=100.0, length=1e-3, stretch=1e-2)
 @chosen(masses=(1e6, 1.0), rate=2.0, length=1e3, stretch=1e-3)
-def free_pair(
-    masses: tuple[float, float], rate: float, length: float, stretch: float, kind: str | None = None
-) -> Scene:
+def free_pair(masses: tuple[float, float], rate: float, length: float, stretch: float) -> Scene:
     """Two points on a spring in free space."""
     m, n = masses
     reduced = m * n / (m + n)
@@ -150,7 +136,7 @@ def free_pair(
         swing = release * np.cos(rate * time)
         return np.column_stack([-n / (m + n) * swing, m / (m + n) * swing])
 
-    scene = unnamed(
+    return unnamed(
         title=f"two points on a spring in free space, stretched by {release:g} m",
         tables=case(bodies, end, forces=[link], gravity=0.0),
         size=release,
@@ -159,7 +145,6 @@ def free_pair(
         truth=place,
         measured=both(position("a", 2), position("b", 2, origin=[0.0, 0.0, length])),
     )
-    return beside(scene, kind)
 
 
 def _draw_double(g: np.random.Generator) -> dict[str, Any]:
@@ -168,7 +153,6 @@ def _draw_double(g: np.random.Generator) -> dict[str, Any]:
         mass=log_uniform(g, 1e-6, 1e6),
         ratio=log_uniform(g, 0.1, 10.0),
         angle=log_uniform(g, 1e-5, 1.0),
-        kind=neighbour(g),
     )
 
 
@@ -176,9 +160,7 @@ def _draw_double(g: np.random.Generator) -> dict[str, Any]:
 @chosen(length=1e-3, mass=1e-6, ratio=1.0, angle=0.5)
 @chosen(length=1.0, mass=1.0, ratio=0.2, angle=1e-4)
 @chosen(length=100.0, mass=1e6, ratio=2.0, angle=1.0, kind="rotor")
-def double_pendulum(
-    length: float, mass: float, ratio: float, angle: float, kind: str | None = None
-) -> Scene:
+def double_pendulum(length: float, mass: float, ratio: float, angle: float) -> Scene:
     """Two points on two rods, the lower one `ratio` as heavy."""
     first = length * np.array([np.sin(angle), 0.0, -np.cos(angle)])
     second = first + np.array([0.0, 0.0, -length])
@@ -213,7 +195,7 @@ def double_pendulum(
         joint("rod_1", "distance", "ground", "upper", point_b=first),
         joint("rod_2", "distance", "upper", "lower", first, point_b=second),
     ]
-    scene = unnamed(
+    return unnamed(
         title=f"a double pendulum of {length:g} m let go at {angle:g} rad",
         tables=case(bodies, end, joints=joints),
         size=length * min(1.0, angle),
@@ -224,4 +206,3 @@ def double_pendulum(
             position("upper", 0, 2, origin=first), position("lower", 0, 2, origin=second)
         ),
     )
-    return beside(scene, kind)

@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
+
 DATABASE = Path(__file__).resolve().parents[2] / "cases" / "sphere" / "hydro.h5"
 MASS, DRAFT, RHO, GRAVITY = 261.8e3, 2.0, 1000.0, 9.81
 HEAVE = 2

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 from tests.attack import sea, truth
-from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.parts import ORIGIN, X, Z, beside, body, both, case, joint, position
+from tests.attack.family import chosen, family, log_uniform, unnamed
+from tests.attack.parts import ORIGIN, X, Z, body, both, case, joint, position
 from tests.attack.slide import LARGE, SMALL, UNIT, Scale, drawn
 
 from hydrodae.study.stability import Scene
@@ -28,7 +28,6 @@ def _draw_pair(g: np.random.Generator) -> dict[str, Any]:
         slack=log_uniform(g, 1e-3, 0.1),
         damping=log_uniform(g, 1e-3, 0.1),
         end=g.uniform(30.0, 200.0),
-        kind=neighbour(g),
     )
 
 
@@ -40,14 +39,7 @@ def _draw_pair(g: np.random.Generator) -> dict[str, Any]:
     scale=UNIT, light=1.5, speed=0.1, stiff=0.5, slack=0.02, damping=0.005, end=150.0, kind="barge"
 )
 def slack_pair(
-    scale: Three,
-    light: float,
-    speed: float,
-    stiff: float,
-    slack: float,
-    damping: float,
-    end: float,
-    kind: str | None = None,
+    scale: Three, light: float, speed: float, stiff: float, slack: float, damping: float, end: float
 ) -> Scene:
     """A sprung mass, a rope, a mass, a rope, ground: both ropes slacken and snap."""
     s, k = Scale(*scale), np.array([1.0, 1.9])
@@ -101,7 +93,7 @@ def slack_pair(
         },
     ]
     tables = case(bodies, end / s.rate, forces=[mooring, *ropes], gravity=0.0, samples=600)
-    scene = unnamed(
+    return unnamed(
         title=f"two masses on slack ropes, one {light:g} of the other",
         tables=tables,
         size=speed * to,
@@ -110,7 +102,6 @@ def slack_pair(
         truth=lambda t: to * solved(np.asarray(t) * s.rate),
         measured=both(position("a", 0, 2), position("b", 0, 2, origin=[to, 0.0, 0.0])),
     )
-    return beside(scene, kind)
 
 
 def _draw_knock(g: np.random.Generator) -> dict[str, Any]:
@@ -122,7 +113,6 @@ def _draw_knock(g: np.random.Generator) -> dict[str, Any]:
         hard=log_uniform(g, 3.0, 300.0),
         exponent=g.uniform(1.0, 2.0),
         end=g.uniform(20.0, 150.0),
-        kind=neighbour(g),
     )
 
 
@@ -133,14 +123,7 @@ def _draw_knock(g: np.random.Generator) -> dict[str, Any]:
     scale=LARGE, light=0.05, gap=0.3, inner=0.1, hard=100.0, exponent=1.5, end=6.0, kind="rotor"
 )
 def knocking_pair(
-    scale: Three,
-    light: float,
-    gap: float,
-    inner: float,
-    hard: float,
-    exponent: float,
-    end: float,
-    kind: str | None = None,
+    scale: Three, light: float, gap: float, inner: float, hard: float, exponent: float, end: float
 ) -> Scene:
     """A mass on a spring between compliant stops, and another on springs within it likewise."""
     s = Scale(*scale)
@@ -194,7 +177,7 @@ def knocking_pair(
         joint("slot", "prismatic", "outer", "inner", ORIGIN, X),
     ]
     tables = case(bodies, end / s.rate, joints=joints, forces=forces, gravity=0.0, samples=600)
-    scene = unnamed(
+    return unnamed(
         title=f"a mass of {light:g} knocks within another",
         tables=tables,
         size=0.5 * s.length,
@@ -203,7 +186,6 @@ def knocking_pair(
         truth=lambda t: s.length * solved(np.asarray(t) * s.rate),
         measured=both(position("outer", 0), position("inner", 0)),
     )
-    return beside(scene, kind)
 
 
 def _draw_tether(g: np.random.Generator) -> dict[str, Any]:
@@ -213,7 +195,6 @@ def _draw_tether(g: np.random.Generator) -> dict[str, Any]:
         stiff=log_uniform(g, 0.1, 20.0),
         slack=log_uniform(g, 1e-4, 0.03),
         end=g.uniform(40.0, 100.0),
-        kind=neighbour(g),
     )
 
 
@@ -221,9 +202,7 @@ def _draw_tether(g: np.random.Generator) -> dict[str, Any]:
 @chosen(height=1.2, period=6.9, stiff=3.0, slack=0.006, end=150.0)
 @chosen(height=0.6, period=5.0, stiff=1.0, slack=0.001, end=200.0)
 @chosen(height=2.0, period=4.0, stiff=10.0, slack=0.003, end=100.0, kind="ship")
-def snapping_tether(
-    height: float, period: float, stiff: float, slack: float, end: float, kind: str | None = None
-) -> Scene:
+def snapping_tether(height: float, period: float, stiff: float, slack: float, end: float) -> Scene:
     """The sphere in a regular wave on a tether of 30 m, which slackens and snaps."""
     s, long = sea.sphere(), 30.0
     free, stiffness = long / (1.0 + slack), stiff * 30.0 * s.stiffness
@@ -243,7 +222,7 @@ def snapping_tether(
         length=free,
     )
     return _float_in_waves(
-        f"the sphere on a tether in waves of {height:g} m", height, period, end, pull, rope, kind
+        f"the sphere on a tether in waves of {height:g} m", height, period, end, pull, rope
     )
 
 
@@ -255,7 +234,6 @@ def _draw_bistable(g: np.random.Generator) -> dict[str, Any]:
         squeeze=g.uniform(1.02, 1.3),
         stiff=log_uniform(g, 0.5, 8.0),
         end=g.uniform(60.0, 300.0),
-        kind=neighbour(g),
     )
 
 
@@ -263,13 +241,7 @@ def _draw_bistable(g: np.random.Generator) -> dict[str, Any]:
 @chosen(height=0.92, period=7.5, length=5.94, squeeze=1.295, stiff=7.7, end=100.0)
 @chosen(height=1.5, period=5.5, length=5.0, squeeze=1.2, stiff=5.0, end=150.0)
 def bistable_float(
-    height: float,
-    period: float,
-    length: float,
-    squeeze: float,
-    stiff: float,
-    end: float,
-    kind: str | None = None,
+    height: float, period: float, length: float, squeeze: float, stiff: float, end: float
 ) -> Scene:
     """The sphere in a regular wave beside a squeezed spring, which pushes it up or down."""
     stiffness = stiff * sea.sphere().stiffness
@@ -295,18 +267,11 @@ def bistable_float(
         end=end,
         law=push,
         force=spring,
-        kind=kind,
     )
 
 
 def _float_in_waves(
-    title: str,
-    height: float,
-    period: float,
-    end: float,
-    law: Any,
-    force: dict[str, Any],
-    kind: str | None,
+    title: str, height: float, period: float, end: float, law: Any, force: dict[str, Any]
 ) -> Scene:
     """Return a scene of the sphere in heave under a force of its place and speed."""
     s, ramp = sea.sphere(), 10.0
@@ -335,7 +300,7 @@ def _float_in_waves(
         wave=[wave],
         joints=[joint("guide", "prismatic", "ground", "sphere", [0.0, 0.0, -sea.DRAFT], Z)],
     )
-    scene = unnamed(
+    return unnamed(
         title=title,
         tables=tables,
         size=height,
@@ -345,4 +310,3 @@ def _float_in_waves(
         measured=position("sphere", 2, origin=[0.0, 0.0, -sea.DRAFT]),
         database=sea.stored,
     )
-    return beside(scene, kind)

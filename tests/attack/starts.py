@@ -8,20 +8,8 @@ from typing import Any
 import numpy as np
 from tests.attack import driven as driven_mechanisms
 from tests.attack import truth
-from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.parts import (
-    DOWN_Y,
-    GRAVITY,
-    X,
-    Z,
-    beside,
-    body,
-    case,
-    driven,
-    joint,
-    position,
-    stop,
-)
+from tests.attack.family import chosen, family, log_uniform, unnamed
+from tests.attack.parts import DOWN_Y, GRAVITY, X, Z, body, case, driven, joint, position, stop
 
 from hydrodae.study.stability import Scene
 
@@ -31,17 +19,14 @@ TOLD = r"(?i)veloc|rate|m/s|rad/s"
 
 def _draw_push(g: np.random.Generator) -> dict[str, Any]:
     return dict(
-        length=log_uniform(g, 0.01, 100.0),
-        angle=g.uniform(0.0, 1.5),
-        speed=g.uniform(0.1, 1.5),
-        kind=neighbour(g),
+        length=log_uniform(g, 0.01, 100.0), angle=g.uniform(0.0, 1.5), speed=g.uniform(0.1, 1.5)
     )
 
 
 @family(KIND, _draw_push)
 @chosen(length=1.0, angle=0.5, speed=0.8)
 @chosen(length=0.1, angle=1.0, speed=1.2, kind="ship")
-def pushed_pendulum(length: float, angle: float, speed: float, kind: str | None = None) -> Scene:
+def pushed_pendulum(length: float, angle: float, speed: float) -> Scene:
     """A bob that starts along its circle; the speed in sqrt(g L)."""
     tau = float(np.sqrt(length / GRAVITY))
     start = length * np.array([np.sin(angle), 0.0, -np.cos(angle)])
@@ -55,7 +40,7 @@ def pushed_pendulum(length: float, angle: float, speed: float, kind: str | None 
     tables = case(
         [bob], 20.0 * tau, joints=[joint("rod", "distance", "ground", "bob", point_b=start)]
     )
-    scene = unnamed(
+    return unnamed(
         title="a pendulum with a push",
         tables=tables,
         size=length,
@@ -64,19 +49,16 @@ def pushed_pendulum(length: float, angle: float, speed: float, kind: str | None 
         truth=lambda t: length * solved(np.asarray(t) / tau),
         measured=position("bob", 0, 2),
     )
-    return beside(scene, kind)
 
 
 def _draw_radial(g: np.random.Generator) -> dict[str, Any]:
-    return dict(
-        length=log_uniform(g, 0.01, 100.0), speed=log_uniform(g, 1e-3, 1.0), kind=neighbour(g)
-    )
+    return dict(length=log_uniform(g, 0.01, 100.0), speed=log_uniform(g, 1e-3, 1.0))
 
 
 @family(KIND, _draw_radial)
 @chosen(length=1.0, speed=1.0)
 @chosen(length=1.0, speed=0.01, kind="ship")
-def radial_start(length: float, speed: float, kind: str | None = None) -> Scene:
+def radial_start(length: float, speed: float) -> Scene:
     """A bob whose start velocity has a part along its rod."""
     start = length * np.array([0.6, 0.0, -0.8])
     velocity = speed * np.sqrt(GRAVITY * length) * np.array([0.0, 0.0, -1.0])
@@ -85,9 +67,7 @@ def radial_start(length: float, speed: float, kind: str | None = None) -> Scene:
         5.0,
         joints=[joint("rod", "distance", "ground", "bob", point_b=start)],
     )
-    return beside(
-        _contradiction("a bob that starts along its rod", tables, position("bob", 0, 2)), kind
-    )
+    return _contradiction("a bob that starts along its rod", tables, position("bob", 0, 2))
 
 
 def _contradiction(title: str, tables: dict[str, Any], measured: Any) -> Scene:
@@ -98,7 +78,7 @@ def _draw_late(g: np.random.Generator) -> dict[str, Any]:
     return {"rate": log_uniform(g, 0.1, 5.0), "given": g.uniform(0.0, 0.9)}
 
 
-@family(KIND, _draw_late)
+@family(KIND, _draw_late, alone=True)
 @chosen(rate=1.0, given=0.0)
 @chosen(rate=2.0, given=0.5)
 def drive_from_rest(rate: float, given: float) -> Scene:
@@ -138,7 +118,7 @@ def _draw_half(g: np.random.Generator) -> dict[str, Any]:
     return {"rate": log_uniform(g, 0.1, 5.0)}
 
 
-@family(KIND, _draw_half)
+@family(KIND, _draw_half, alone=True)
 @chosen(rate=1.0)
 @chosen(rate=0.05)
 def crank_alone(rate: float) -> Scene:
@@ -162,10 +142,7 @@ def crank_alone(rate: float) -> Scene:
 
 def _draw_contact(g: np.random.Generator) -> dict[str, Any]:
     return dict(
-        speed=g.uniform(-1.0, 1.0),
-        restitution=g.uniform(0.0, 0.8),
-        mass=log_uniform(g, 1e-3, 1e5),
-        kind=neighbour(g),
+        speed=g.uniform(-1.0, 1.0), restitution=g.uniform(0.0, 0.8), mass=log_uniform(g, 1e-3, 1e5)
     )
 
 
@@ -174,7 +151,7 @@ def _draw_contact(g: np.random.Generator) -> dict[str, Any]:
 @chosen(speed=1.0, restitution=0.5, mass=1.0)
 @chosen(speed=-1.0, restitution=0.5, mass=1.0)
 @chosen(speed=-1.0, restitution=0.0, mass=100.0, kind="barge")
-def start_at_floor(speed: float, restitution: float, mass: float, kind: str | None = None) -> Scene:
+def start_at_floor(speed: float, restitution: float, mass: float) -> Scene:
     """A ball that starts on the floor: at rest, upwards, or downwards (an impact at t = 0)."""
     up = speed if speed >= 0.0 else -restitution * speed
     exact = (
@@ -199,7 +176,7 @@ def start_at_floor(speed: float, restitution: float, mass: float, kind: str | No
         joints=[joint("guide", "prismatic", "ground", "ball", [0.0, 0.0, 1.0], Z)],
         constraints=[stop("floor", "guide", restitution, lower=0.0)],
     )
-    scene = unnamed(
+    return unnamed(
         title=f"a ball that starts on the floor with {speed:g} m/s",
         tables=tables,
         size=max(up**2 / (2 * GRAVITY), 1e-3),
@@ -209,14 +186,13 @@ def start_at_floor(speed: float, restitution: float, mass: float, kind: str | No
         measured=position("ball", 2, origin=[0.0, 0.0, 1.0]),
         told="(?i)floor|veloc" if speed < 0.0 else "",
     )
-    return beside(scene, kind)
 
 
 def _draw_pressed(g: np.random.Generator) -> dict[str, Any]:
     return {"rate": log_uniform(g, 0.5, 20.0), "squeeze": log_uniform(g, 0.01, 1.0)}
 
 
-@family(KIND, _draw_pressed)
+@family(KIND, _draw_pressed, alone=True)
 @chosen(rate=2.0, squeeze=0.1)
 def pushed_from_stop(rate: float, squeeze: float) -> Scene:
     """A sprung mass let go at a stop, from which its spring takes it away: a cosine."""

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
+
 Truth = Callable[[Array], Array]
 Rates = Callable[[float, Array], Any]
 

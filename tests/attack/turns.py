@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 from tests.attack import truth
-from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.parts import GRAVITY, X, Y, Z, beside, body, case, channel, joint
+from tests.attack.family import chosen, family, log_uniform, unnamed
+from tests.attack.parts import GRAVITY, X, Y, Z, body, case, channel, joint
 
 from hydrodae.study.stability import Scene
 
@@ -20,7 +20,6 @@ def _draw_wheel(g: np.random.Generator) -> dict[str, Any]:
         how=("pitch", "planar", "rigid")[g.integers(3)],
         rate=float(g.choice([-1.0, 1.0])) * log_uniform(g, 0.1, 1e3),
         turns=log_uniform(g, 5.0, 500.0),
-        kind=neighbour(g),
     )
 
 
@@ -29,7 +28,7 @@ def _draw_wheel(g: np.random.Generator) -> dict[str, Any]:
 @chosen(how="planar", rate=5.0, turns=40.0)
 @chosen(how="rigid", rate=-50.0, turns=300.0)
 @chosen(how="pitch", rate=500.0, turns=500.0, kind="ship")
-def free_wheel(how: str, rate: float, turns: float, kind: str | None = None) -> Scene:
+def free_wheel(how: str, rate: float, turns: float) -> Scene:
     """A wheel that turns freely on its hinge: the angle is rate t."""
     end = turns * TURN / abs(rate)
     wheel = body(
@@ -46,7 +45,7 @@ def free_wheel(how: str, rate: float, turns: float, kind: str | None = None) -> 
         gravity=0.0,
         joints=[joint("hinge", "revolute", "ground", "wheel", axis=Y)],
     )
-    scene = unnamed(
+    return unnamed(
         title=f"a wheel for {turns:g} turns",
         tables=tables,
         size=TURN,
@@ -56,7 +55,6 @@ def free_wheel(how: str, rate: float, turns: float, kind: str | None = None) -> 
         measured=channel("joints/hinge/angle"),
         unit="rad",
     )
-    return beside(scene, kind)
 
 
 def _draw_gears(g: np.random.Generator) -> dict[str, Any]:
@@ -66,7 +64,6 @@ def _draw_gears(g: np.random.Generator) -> dict[str, Any]:
         rate=log_uniform(g, 0.1, 100.0),
         ratio=float(g.choice([-1.0, 1.0])) * log_uniform(g, 0.1, 20.0),
         end=log_uniform(g, 5.0, 200.0),
-        kind=neighbour(g),
     )
 
 
@@ -75,9 +72,7 @@ def _draw_gears(g: np.random.Generator) -> dict[str, Any]:
 @chosen(how="pitch", moment=0.5, rate=0.0, ratio=-3.0, end=20.0)
 @chosen(how="planar", moment=0.2, rate=5.0, ratio=7.5, end=30.0)
 @chosen(how="rigid", moment=0.0, rate=20.0, ratio=0.3, end=50.0, kind="ship")
-def gears(
-    how: str, moment: float, rate: float, ratio: float, end: float, kind: str | None = None
-) -> Scene:
+def gears(how: str, moment: float, rate: float, ratio: float, end: float) -> Scene:
     """Two wheels with a gear: (I + n^2 I) a'' = M, b = n a."""
     inertia = 0.1
     sort: Any = ["pitch"] if how == "pitch" else how
@@ -108,7 +103,7 @@ def gears(
         samples=60,
         forces=[load] if moment else [],
     )
-    scene = unnamed(
+    return unnamed(
         title=f"a gear of {ratio:g} over many turns",
         tables=tables,
         size=TURN * max(1.0, abs(ratio)),
@@ -118,7 +113,6 @@ def gears(
         measured=channel("joints/pin_a/angle", "joints/pin_b/angle"),
         unit="rad",
     )
-    return beside(scene, kind)
 
 
 def _draw_torsion(g: np.random.Generator) -> dict[str, Any]:
@@ -127,7 +121,6 @@ def _draw_torsion(g: np.random.Generator) -> dict[str, Any]:
         rate=log_uniform(g, 0.05, 5.0),
         damping=float(g.choice([0.0, 0.05, 0.5])),
         rigid=bool(g.integers(2)),
-        kind=neighbour(g),
     )
 
 
@@ -136,9 +129,7 @@ def _draw_torsion(g: np.random.Generator) -> dict[str, Any]:
 @chosen(turns=50.0, rate=0.5, damping=0.05)
 @chosen(turns=20.0, rate=0.2, damping=0.0, rigid=True)
 @chosen(turns=10.0, rate=1.0, damping=0.0, kind="barge")
-def torsion_spring(
-    turns: float, rate: float, damping: float, rigid: bool = False, kind: str | None = None
-) -> Scene:
+def torsion_spring(turns: float, rate: float, damping: float, rigid: bool = False) -> Scene:
     """A wheel on a spring that winds up by many turns."""
     amplitude = TURN * turns
     spin = amplitude * rate
@@ -166,7 +157,7 @@ def torsion_spring(
         samples=200,
         joints=[joint("hinge", "revolute", "ground", "wheel", axis=Y)],
     )
-    scene = unnamed(
+    return unnamed(
         title=f"a spring wound up by {turns:g} turns",
         tables=tables,
         size=amplitude,
@@ -176,17 +167,16 @@ def torsion_spring(
         measured=channel("joints/hinge/angle"),
         unit="rad",
     )
-    return beside(scene, kind)
 
 
 def _draw_brake(g: np.random.Generator) -> dict[str, Any]:
-    return dict(turns=log_uniform(g, 1.0, 500.0), time=log_uniform(g, 0.5, 50.0), kind=neighbour(g))
+    return dict(turns=log_uniform(g, 1.0, 500.0), time=log_uniform(g, 0.5, 50.0))
 
 
 @family(KIND, _draw_brake)
 @chosen(turns=80.0, time=5.0)
 @chosen(turns=300.0, time=20.0)
-def braked_wheel(turns: float, time: float, kind: str | None = None) -> Scene:
+def braked_wheel(turns: float, time: float) -> Scene:
     """A wheel braked by a damper: a = A (1 - exp(-t / T))."""
     amplitude, inertia = TURN * turns, 0.2
     wheel = body(
@@ -201,7 +191,7 @@ def braked_wheel(turns: float, time: float, kind: str | None = None) -> Scene:
         samples=100,
         joints=[joint("hinge", "revolute", "ground", "wheel", axis=Z)],
     )
-    scene = unnamed(
+    return unnamed(
         title=f"a wheel braked over {turns:g} turns",
         tables=tables,
         size=amplitude,
@@ -211,17 +201,16 @@ def braked_wheel(turns: float, time: float, kind: str | None = None) -> Scene:
         measured=channel("joints/hinge/angle"),
         unit="rad",
     )
-    return beside(scene, kind)
 
 
 def _draw_screw(g: np.random.Generator) -> dict[str, Any]:
-    return {"pitch": log_uniform(g, 0.01, 1.0), "end": g.uniform(1.0, 6.0), "kind": neighbour(g)}
+    return {"pitch": log_uniform(g, 0.01, 1.0), "end": g.uniform(1.0, 6.0)}
 
 
 @family(KIND, _draw_screw)
 @chosen(pitch=0.2, end=5.0)
 @chosen(pitch=0.02, end=6.0, kind="ship")
-def falling_nut(pitch: float, end: float, kind: str | None = None) -> Scene:
+def falling_nut(pitch: float, end: float) -> Scene:
     """A nut on an upright screw: m z'' (1 + I k^2 / m) = -m g, angle k z, k = 2 pi / pitch."""
     mass, inertia, k = 2.0, 0.1, TURN / pitch
     fall = GRAVITY / (1.0 + inertia * k**2 / mass)
@@ -234,7 +223,7 @@ def falling_nut(pitch: float, end: float, kind: str | None = None) -> Scene:
     )
     way = 0.5 * fall * end**2
     tau = min(end, 1.0 / (k * fall * end))  # its fastest rate is that at which it turns at the end
-    scene = unnamed(
+    return unnamed(
         title=f"a nut on a screw of {pitch:g} m a turn",
         tables=tables,
         size=k * way,
@@ -244,7 +233,6 @@ def falling_nut(pitch: float, end: float, kind: str | None = None) -> Scene:
         measured=channel("joints/screw/angle"),
         unit="rad",
     )
-    return beside(scene, kind)
 
 
 def _draw_roll(g: np.random.Generator) -> dict[str, Any]:
@@ -252,13 +240,12 @@ def _draw_roll(g: np.random.Generator) -> dict[str, Any]:
         rate=log_uniform(g, 0.5, 50.0),
         sway=log_uniform(g, 0.05, 1.0),
         turns=log_uniform(g, 5.0, 100.0),
-        kind=neighbour(g),
     )
 
 
 @family(KIND, _draw_roll)
 @chosen(rate=5.0, sway=0.2, turns=30.0)
-def wheel_on_a_swing(rate: float, sway: float, turns: float, kind: str | None = None) -> Scene:
+def wheel_on_a_swing(rate: float, sway: float, turns: float) -> Scene:
     """A wheel that spins about the axis about which its carrier swings on a spring.
 
     The carrier a and the wheel's angle s relative to it: I (a'' + s'') = 0.
@@ -280,7 +267,7 @@ def wheel_on_a_swing(rate: float, sway: float, turns: float, kind: str | None = 
         return np.column_stack([a, rate * t - a])
 
     tables = case(bodies, end, gravity=0.0, joints=joints, forces=[pto], samples=100)
-    scene = unnamed(
+    return unnamed(
         title="a wheel that spins on a carrier that swings",
         tables=tables,
         size=max(sway, 1.0),
@@ -290,4 +277,3 @@ def wheel_on_a_swing(rate: float, sway: float, turns: float, kind: str | None = 
         measured=channel("joints/hinge/angle", "joints/axle/angle"),
         unit="rad",
     )
-    return beside(scene, kind)

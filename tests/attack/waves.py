@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 from tests.attack import sea, truth
-from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.parts import beside, case, position
+from tests.attack.family import chosen, family, log_uniform, unnamed
+from tests.attack.parts import case, position
 
 from hydrodae.study.stability import Scene
 
@@ -31,7 +31,6 @@ def _in_waves(
     end: float,
     extra: dict[str, Any],
     breaks: list[float],
-    kind: str | None,
     settled: bool = False,
 ) -> Scene:
     s = sea.sphere()
@@ -48,8 +47,7 @@ def _in_waves(
     tables = case([sea.float_body()], end, samples=int(2.5 * end), **extra)
     if settled:  # nothing at all moves until the waves come
         tables["solver"]["start"] = "equilibrium"
-    scene = unnamed(title, tables, size, 0.6, SOURCE, exact, HEAVE, database=sea.stored)
-    return beside(scene, kind)
+    return unnamed(title, tables, size, 0.6, SOURCE, exact, HEAVE, database=sea.stored)
 
 
 def _draw_group(g: np.random.Generator) -> dict[str, Any]:
@@ -58,7 +56,6 @@ def _draw_group(g: np.random.Generator) -> dict[str, Any]:
         period=g.uniform(3.5, 10.0),
         at=g.uniform(150.0, 300.0),
         settled=bool(g.integers(2)),
-        kind=neighbour(g),
     )
 
 
@@ -68,9 +65,7 @@ def _draw_group(g: np.random.Generator) -> dict[str, Any]:
 @chosen(height=0.5, period=7.0, at=200.0, kind="ship")
 @chosen(height=1.0, period=6.0, at=260.0, settled=True)
 @chosen(height=0.05, period=5.0, at=220.0, settled=True)
-def wave_group(
-    height: float, period: float, at: float, settled: bool = False, kind: str | None = None
-) -> Scene:
+def wave_group(height: float, period: float, at: float, settled: bool = False) -> Scene:
     """A measured group of waves after silence."""
     step, deviation, w = 0.2, 1.2 * period, 2.0 * np.pi / period
     time = step * np.arange(int((at + 120.0) / step))
@@ -86,17 +81,13 @@ def wave_group(
         end=at + 50.0,
         extra={"wave": [wave]},
         breaks=[max(0.0, at - 8.0 * deviation)],
-        kind=kind,
         settled=settled,
     )
 
 
 def _draw_low(g: np.random.Generator) -> dict[str, Any]:
     return dict(
-        height=log_uniform(g, 1e-4, 1.0),
-        period=g.uniform(3.0, 12.0),
-        ramp=g.uniform(5.0, 60.0),
-        kind=neighbour(g),
+        height=log_uniform(g, 1e-4, 1.0), period=g.uniform(3.0, 12.0), ramp=g.uniform(5.0, 60.0)
     )
 
 
@@ -106,7 +97,7 @@ def _draw_low(g: np.random.Generator) -> dict[str, Any]:
 @chosen(height=1e-2, period=8.0, ramp=20.0)
 @chosen(height=1.0, period=4.4, ramp=20.0)
 @chosen(height=1e-3, period=6.0, ramp=20.0, kind="barge")
-def low_wave(height: float, period: float, ramp: float, kind: str | None = None) -> Scene:
+def low_wave(height: float, period: float, ramp: float) -> Scene:
     """A regular wave of any height."""
     wave = {"name": "swell", "type": "regular", "period": period, "height": height}
     return _in_waves(
@@ -116,23 +107,19 @@ def low_wave(height: float, period: float, ramp: float, kind: str | None = None)
         end=ramp + 10.0 * period,
         extra={"sea": {"ramp": ramp}, "wave": [wave]},
         breaks=[ramp],
-        kind=kind,
     )
 
 
 def _draw_ramp(g: np.random.Generator) -> dict[str, Any]:
     return dict(
-        height=log_uniform(g, 0.01, 1.0),
-        period=g.uniform(3.5, 10.0),
-        ramp=g.uniform(200.0, 800.0),
-        kind=neighbour(g),
+        height=log_uniform(g, 0.01, 1.0), period=g.uniform(3.5, 10.0), ramp=g.uniform(200.0, 800.0)
     )
 
 
 @family("loads after rest", _draw_ramp)
 @chosen(height=1.0, period=6.0, ramp=400.0)
 @chosen(height=0.1, period=4.4, ramp=800.0)
-def late_ramp(height: float, period: float, ramp: float, kind: str | None = None) -> Scene:
+def late_ramp(height: float, period: float, ramp: float) -> Scene:
     """A sea that grows so slowly that it begins late."""
     wave = {"name": "swell", "type": "regular", "period": period, "height": height}
     return _in_waves(
@@ -142,5 +129,4 @@ def late_ramp(height: float, period: float, ramp: float, kind: str | None = None
         end=1.1 * ramp,
         extra={"sea": {"ramp": ramp}, "wave": [wave]},
         breaks=[ramp],
-        kind=kind,
     )

@@ -28,7 +28,6 @@ from hydrodae.commands.cli import guarded
 from hydrodae.hdb.bem import run as bem
 from hydrodae.hdb.bem import shapes
 
-Array = NDArray[np.float64]
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 

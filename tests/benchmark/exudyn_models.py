@@ -17,8 +17,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from tests.benchmark.peer_problems import EACH_STEP, FULL, Compared, Setting
+
+from hydrodae.support.arrays import Array
 
 vars(sys)["exudynFast"] = True  # Exudyn's build without range checks; its default is slower
 
@@ -26,15 +27,10 @@ import exudyn as exu  # noqa: E402
 import exudyn.itemInterface as items  # noqa: E402
 import exudyn.utilities as tools  # noqa: E402
 
-Array = NDArray[np.float64]
-
 VERSION = str(exu.__version__)
 GRAVITY = 9.81
 # constrained translations, then rotations, of a joint whose axis is z
-FIXED = {
-    "revolute": (1, 1, 1, 1, 1, 0),
-    "prismatic": (1, 1, 0, 1, 1, 1),
-}
+FIXED = {"revolute": (1, 1, 1, 1, 1, 0), "prismatic": (1, 1, 0, 1, 1, 1)}
 
 
 class Model:

@@ -10,12 +10,11 @@ import tomllib
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 from tests.benchmark.counting import run
 
 from hydrodae import hdb
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 ROOT = Path(__file__).resolve().parents[2]
 CASE = ROOT / "cases" / "f3of" / "flap_decay.toml"
 FIT = "flaps_planar"

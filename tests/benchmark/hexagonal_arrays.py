@@ -29,14 +29,13 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 import hydrodae
 from hydrodae import arrays, hdb
 from hydrodae.hdb.memory import ExponentialMemory
 from hydrodae.pictures.plot import save
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "cases" / "4n3la"))
 

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from tests.verification.multibody import columns, governor_solution, heavy_top_solution
 
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
+
 Rows = tuple[tuple[str, int], ...]  # of joints: name, row
 
 ALPHA, TRAPEZOIDAL = "GeneralizedAlpha", "TrapezoidalIndex2"
@@ -109,11 +109,7 @@ OURS = (
     Runs("radau", (1e-4, 1e-6, 1e-8), 5),
     Runs("ida", (1e-4, 1e-6, 1e-8)),
 )
-LONG = (
-    Runs("explicit_rk", (1e-7, 3e-8, 1e-8), 8),
-    Runs("radau", (1e-7,), 5),
-    Runs("ida", (1e-8,)),
-)
+LONG = (Runs("explicit_rk", (1e-7, 3e-8, 1e-8), 8), Runs("radau", (1e-7,), 5), Runs("ida", (1e-8,)))
 LIGHT = (  # explicit steps, and any from a tolerance of 1e-5 down, follow the light mass
     Runs("radau", (1e-2, 3e-3, 1e-3, 1e-4, 3e-5, 1e-5, 1e-6), 5, steps=(5e-2, 2.5e-2, 1e-2)),
     Runs("ida", (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)),
@@ -129,11 +125,7 @@ LOWER_HINGE = tuple(("lower", row) for row in range(6))
 PROBLEMS = {
     "simple_pendulum": Problem(Compared("bob"), of("x", "y"), 1e-3, both((5, 16, 150)), OURS),
     "pendulum_1000s": Problem(
-        Compared("bob"),
-        of("x", "y"),
-        1e-3,
-        (Ladder(Setting(TRAPEZOIDAL), (5000, 16000)),),
-        LONG,
+        Compared("bob"), of("x", "y"), 1e-3, (Ladder(Setting(TRAPEZOIDAL), (5000, 16000)),), LONG
     ),
     "n_four_bar_2": Problem(
         Compared("up0", "B0r"),

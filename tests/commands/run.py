@@ -29,9 +29,7 @@ LEFT_OUT = {
 #: Pages whose Python blocks make what their commands read: tests/python/test_docs.py runs both.
 WITH_PYTHON = ("docs/closed_loop.md",)
 #: What a page takes as given: commands that go before, and links into the reference data.
-BEFORE = {
-    "python/hydrodae/starters/README.md": ["hydrodae new point_absorber case", "cd case"],
-}
+BEFORE = {"python/hydrodae/starters/README.md": ["hydrodae new point_absorber case", "cd case"]}
 LINKS = {
     "cases/rm3": {"rm3_wamit": "hdb/rm3_wamit"},
     "cases/sphere": {"sphere.nc": "hdb/own/sphere.nc"},

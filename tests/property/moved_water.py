@@ -5,15 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 from tests.property.moves import Move
 
 from hydrodae import hdb
-from hydrodae.hdb.database.coordinates import DOFS
+from hydrodae.hdb.labels import DOFS
 from hydrodae.hdb.memory import ExponentialMemory
 from hydrodae.hdb.relations.dispersion import wavenumber
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 def lengths(labels: tuple[str, ...]) -> Array:

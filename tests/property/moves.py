@@ -14,13 +14,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from hydrodae import tables
 from hydrodae.case.case import to_toml
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 Scene = dict[str, Any]
 
 #: Vectors of a scene: places, what turns as an arrow does, and what turns as an angular velocity.

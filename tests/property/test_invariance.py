@@ -14,14 +14,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from tests.property import moved_water, moves
 
 import hydrodae
 from hydrodae import hdb
 from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 ROOT = Path(__file__).resolve().parents[2]
 
 #: End of each run [s].

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from tests.scenes import cart
 
 from hydrodae.study.calibrate import Free, Record
+from hydrodae.support.arrays import Array
 
 CHANNEL = "joints/slide/displacement"
 WATER = """
@@ -36,7 +36,6 @@ START = {
     "force.pto.damping": 0.4,
     "force.water.quadratic": [0.5, 0.0, 0.0, 0.0, 0.0, 0.0],
 }
-Array = NDArray[np.float64]
 
 TIME: Array = np.asarray(np.arange(201) * 0.1, dtype=np.float64)
 

@@ -8,13 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.linalg import toeplitz
-from tests.python.decay_record import CHANNEL, FREE, START, TEXT, TIME, TRUTH, Array, motion, record
+from tests.python.decay_record import CHANNEL, FREE, START, TEXT, TIME, TRUTH, motion, record
 from tests.verification import line_scenes as lines
 
 import hydrodae
 from hydrodae.case import Case
 from hydrodae.study.calibrate import Calibration, Free, Record, calibrate, read_record
 from hydrodae.study.calibrate.statistics import autoregressive, spread, undetermined
+from hydrodae.support.arrays import Array
 
 
 def noise(draw: np.random.Generator, kind: str, sigma: float = 0.01) -> Array:
@@ -215,9 +216,7 @@ def test_results_are_records_too(case: Case, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_drag_of_a_chain_from_half_of_its_record_predicts_the_other_half(
-    reference: Path,
-) -> None:
+def test_drag_of_a_chain_from_half_of_its_record_predicts_the_other_half(reference: Path) -> None:
     """From a start that is too high; both halves are the same motion.
 
     Nothing is asked of the values: across the chain the authors of the experiment have 1.505, which

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.errors import stopped
 from tests.python.controlled import LATCH
 from tests.python.test_tcp import case, free_port
 from tests.scenes import controlled_cart
@@ -105,7 +106,7 @@ def test_a_program_that_ends_a_simulation_ends_it_as_a_run(protocol: str) -> Non
     assert str(caught.value) == (
         "stopped at t = 2.1 s of 5 s: controller 'pi': the other program has ended the run"
     )
-    with pytest.raises(hydrodae.SolverError, match="goes on from a state that is restored only"):
+    with stopped("state"):
         run.advance()
     with damper(port, protocol):
         run.restore(saved)
@@ -121,10 +122,7 @@ def test_a_port_is_free_when_a_run_is_closed() -> None:
         other = Simulation(case(port))
         go(other, 1.0)
         other.close()
-    with (
-        socket.create_server(("127.0.0.1", port)),
-        pytest.raises(hydrodae.SolverError, match="cannot listen"),
-    ):
+    with socket.create_server(("127.0.0.1", port)), stopped("controller", "controllers/pi"):
         run.advance()
     fresh = Simulation(case(port))
     fresh.close()
@@ -159,12 +157,9 @@ def test_a_state_goes_on_with_a_new_connection(protocol: str) -> None:
         run.close()
     del run  # which listens at the port
     run = Simulation(case(port, f'protocol = "{protocol}"'))
-    with (
-        damper(port, protocol, until=2.0, leaves=True),
-        pytest.raises(hydrodae.SolverError, match="has closed the connection"),
-    ):
+    with damper(port, protocol, until=2.0, leaves=True), stopped("controller", "controllers/pi"):
         go(run, 4.0)
-    with pytest.raises(hydrodae.SolverError, match="goes on from a state that is restored only"):
+    with stopped("state"):
         run.advance(4.0)
     with damper(port, protocol) as seen:
         run.restore(saved)

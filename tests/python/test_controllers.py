@@ -8,11 +8,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.errors import stopped, wrong
 from tests.python.controlled import PI, PLACE, RATE, Pi, case, sampled_cart
 from tests.scenes import controlled_cart
 
 import hydrodae
-from hydrodae import Case, CaseError, Simulation, SolverError
+from hydrodae import Case, CaseError, Simulation
 from hydrodae.results import Results
 
 
@@ -201,45 +202,45 @@ def test_a_gain_of_the_wrong_sign_ends_the_run_within_a_few_swings() -> None:
     """Each swing is 12 times as large as the last: 14 s, and 1e6 of the start."""
     given = case("resistive", "damping = -5.0")
     given.set("solver.end_time", 60.0)
-    with pytest.raises(SolverError, match="controller 'pi' feeds the motion") as caught:
+    with stopped("growth") as caught:
         hydrodae.run(given)
     assert caught.value.results is not None
     assert caught.value.results.end_time < 20.0
 
 
 def test_an_answer_that_is_no_number() -> None:
-    with pytest.raises(SolverError, match="controller 'pi': input 'forces/pto/load'"):
+    with stopped("controller", "controllers/pi"):
         hydrodae.run(case("python"), controllers={"pi": lambda *_: math.nan})
 
 
 @pytest.mark.parametrize(
-    ("type", "keys", "inputs", "message"),
+    ("type", "keys", "inputs", "key"),
     [
-        ("pid", "gain = 1.0", RATE, "unknown key 'gain'"),
-        ("pid", "damping = 1.0", RATE, "unknown key 'damping'"),
-        ("pid", "", f"{RATE}, {RATE}, {RATE}", "what it holds at its target"),
-        ("pid", "gain_i = 1.0\nupper = 1.0", RATE, "needs the key 'tracking_time'"),
-        ("reactive", "", RATE, "a coordinate and its rate; it has 1"),
-        ("table", "at = [1.0, 0.0]\nvalue = [0.0, 1.0]", RATE, "'at' must ascend"),
-        ("pidd", "", RATE, "did you mean 'pid'"),
+        ("pid", "gain = 1.0", RATE, "gain"),
+        ("pid", "damping = 1.0", RATE, "damping"),
+        ("pid", "", f"{RATE}, {RATE}, {RATE}", "inputs"),
+        ("pid", "gain_i = 1.0\nupper = 1.0", RATE, "tracking_time"),
+        ("reactive", "", RATE, "inputs"),
+        ("table", "at = [1.0, 0.0]\nvalue = [0.0, 1.0]", RATE, "at"),
+        ("pidd", "", RATE, "type"),
     ],
 )
-def test_cases_that_are_refused(type: str, keys: str, inputs: str, message: str) -> None:
-    with pytest.raises(CaseError, match=message):
+def test_cases_that_are_refused(type: str, keys: str, inputs: str, key: str) -> None:
+    with wrong(f"controller.pi.{key}"):
         case(type, keys, inputs)
 
 
 def test_samples_without_end_are_refused() -> None:
-    with pytest.raises(CaseError, match=r"'period' = 1e-12 s takes 5e.12 samples until the end of"):
+    with wrong("controller.pi.period"):
         hydrodae.check(case("pid", period=1e-12))
 
 
 def test_names_that_there_are_not() -> None:
     with pytest.raises(CaseError, match="did you mean 'joints/slide/displacement_rate'"):
         hydrodae.check(case("pid", "", '"joints/slide/displacement_rat"'))
-    wrong = controlled_cart("pid").replace("forces/pto/load", "forces/pto/lod")
+    text = controlled_cart("pid").replace("forces/pto/load", "forces/pto/lod")
     with pytest.raises(CaseError, match="did you mean 'forces/pto/load'"):
-        hydrodae.check(Case.from_text(wrong))
+        hydrodae.check(Case.from_text(text))
     with pytest.raises(CaseError, match="which nobody gave"):
         hydrodae.run(case("python"))
     with pytest.raises(CaseError, match="'pj' is no controller of type python"):

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.python.decay_record import TIME, Array, motion
+from tests.python.decay_record import TIME, motion
 
 import hydrodae
 from hydrodae.study.calibrate import decay
+from hydrodae.support.arrays import Array
 
 
 def test_a_linear_decay_by_its_peaks_is_the_closed_form() -> None:

@@ -222,7 +222,7 @@ def test_hdb_compute(tmp_path: Path) -> None:
 
     out, point = tmp_path / "hydro.h5", np.array([0.0, 0.0, -2.0])
     words = ["--body", "buoy=sphere:radius=5", "--cog", "buoy=0,0,-2", "--omega", "0.4,1.6,4"]
-    words += ["--panel", "1.2", "-o", str(out), "--work", str(tmp_path), "-q", "--accept"]
+    words += ["--panel", "1.2", "-o", str(out), "--work", str(tmp_path), "-q"]
     assert main(["hdb", "compute", *words]) == 0
     panels = cutting.immersed(shapes.build("sphere", 1.2, {"radius": 5.0}))
     database, _ = hydrodae.hdb.compute(

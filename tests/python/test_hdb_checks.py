@@ -151,9 +151,7 @@ def test_a_clean_database_has_no_warning(sphere):
 
 def test_a_forgotten_conjugation_is_an_error(sphere):
     wrong = dataclasses.replace(
-        sphere,
-        froude_krylov=sphere.froude_krylov.conj(),
-        diffraction=sphere.diffraction.conj(),
+        sphere, froude_krylov=sphere.froude_krylov.conj(), diffraction=sphere.diffraction.conj()
     )
     finding = hdb.check(wrong).find("phase convention")[0]
     assert finding.severity == "error"

@@ -2,27 +2,20 @@
 
 from __future__ import annotations
 
-import argparse
 import dataclasses
 import re
 
 import numpy as np
 import pytest
+from tests.python.hdb_command import call
 
 import hydrodae.hdb.memory
 from hydrodae import hdb
-from hydrodae.commands import hdb as command
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.database import files
 from hydrodae.hdb.database.findings import CheckReport, Finding
 from hydrodae.hdb.database.writers import write_capytaine
 from hydrodae.hdb.memory import ExponentialMemory
-
-
-def call(*words):
-    parser = argparse.ArgumentParser()
-    command.add_arguments(parser)
-    return command.run(parser.parse_args([str(w) for w in words]))
 
 
 @pytest.fixture

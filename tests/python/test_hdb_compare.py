@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import argparse
 import dataclasses
 
 import numpy as np
 import pytest
+from tests.python.hdb_command import call
 
-from hydrodae.commands import hdb as command
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.checks.compare import compare, grid_sensitivity, other_water
 
@@ -60,10 +59,8 @@ def test_sensitivity_of_the_sphere(sphere):
 
 
 def test_command(repository, sphere_file, capsys):
-    parser = argparse.ArgumentParser()
-    command.add_arguments(parser)
-    device = str(repository / "cases" / "f3of" / "hydro.h5")
-    assert command.run(parser.parse_args(["compare", device, device])) == 0
+    device = repository / "cases" / "f3of" / "hydro.h5"
+    assert call("compare", device, device) == 0
     assert "radiation_damping       0.00%" in capsys.readouterr().out
-    assert command.run(parser.parse_args(["compare", str(sphere_file)])) == 0
+    assert call("compare", sphere_file) == 0
     assert "every second frequency" in capsys.readouterr().out

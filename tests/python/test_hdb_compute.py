@@ -1,16 +1,14 @@
-"""`hydrodae hdb compute` on small meshes: theory of the hemisphere, resumption, NaN, lids."""
+"""`hydrodae hdb compute` on small meshes: theory of the hemisphere, resumption, lids."""
 
 from __future__ import annotations
 
-import argparse
 import dataclasses
 
 import numpy as np
 import pytest
-import xarray as xr
+from tests.python.hdb_command import call
 
 from hydrodae import hdb
-from hydrodae.commands import hdb as command
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.bem import run as bem
 from hydrodae.hdb.bem import shapes
@@ -18,12 +16,6 @@ from hydrodae.hdb.bem.cutting import immersed
 
 cpt = pytest.importorskip("capytaine", reason="needs the extra bem")
 SETTINGS = bem.Settings(omega=np.array([0.4, 0.8, 1.2, 1.6]), rho=1000.0)
-
-
-def call(*words):
-    parser = argparse.ArgumentParser()
-    command.add_arguments(parser)
-    return command.run(parser.parse_args([str(w) for w in words]))
 
 
 def hemisphere(size=1.2, **place):
@@ -98,15 +90,6 @@ def test_another_setting_is_another_folder(computed, monkeypatch):
     assert asked == [0.4, 0.8, 1.2, 1.6, np.inf]
     assert other.parent != netcdf.parent
     assert hdb.read(other).water_depth == 12.0
-
-
-def test_nan_is_counted(computed, tmp_path):
-    assert bem.count_nan(computed[1]) == {}
-    with xr.open_dataset(computed[1]) as opened:
-        ds = opened.load()
-    ds["radiation_damping"][1, 2] = np.nan
-    ds.to_netcdf(tmp_path / "x.nc")
-    assert bem.count_nan(tmp_path / "x.nc") == {"radiation_damping": 6}
 
 
 def test_two_bodies_and_a_submerged_one_without_lid(tmp_path):

@@ -13,10 +13,10 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import files
 from hydrodae.hdb.database.convolution import RadiationKernel
 from hydrodae.hdb.database.coordinates import skew
+from hydrodae.hdb.labels import DOFS, Label
 from hydrodae.hdb.memory import ExponentialMemory
 from hydrodae.hdb.relations.dispersion import frequency, wavenumber
 
-DOFS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 RHO, G = 1025.0, 9.81
 
 
@@ -361,3 +361,25 @@ def test_dispersion_relation(depth):
 def test_a_mesh_has_panels(mesh, text):
     with pytest.raises(DatabaseError, match=f"mesh of 'a' {text}"):
         hdb.Body("a", mesh=mesh)
+
+
+@pytest.mark.parametrize(
+    ("text", "dof", "kind"),
+    [
+        ("a.heave", 2, "translation"),
+        ("a.b.yaw", 5, "rotation"),
+        ("a.mode7", 6, "mode"),
+        ("a.bend", 6, "mode"),
+    ],
+)
+def test_a_label_is_a_body_and_what_it_does(text, dof, kind):
+    label = Label.read(text)
+    assert str(label) == text
+    assert (label.body, label.dof) == (text[: -len(label.motion) - 1], dof)
+    assert [k for k in ("translation", "rotation", "mode") if getattr(label, f"is_{k}")] == [kind]
+
+
+@pytest.mark.parametrize("text", ["heave", ".heave", "a."])
+def test_what_is_no_label_is_refused(text):
+    with pytest.raises(DatabaseError, match="is not <body>"):
+        Label.read(text)

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import argparse
 import dataclasses
 from typing import Any
 
 import numpy as np
 import pytest
+from tests.python.hdb_command import call
 
 from hydrodae import hdb
-from hydrodae.commands import hdb as command
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.checks.energy import energy_identity
 from hydrodae.hdb.checks.examination import examination
@@ -18,12 +17,6 @@ from hydrodae.hdb.checks.irregular import bands, suspect_rows
 from hydrodae.hdb.checks.repair import repair
 from hydrodae.hdb.database.findings import CheckReport, Finding
 from hydrodae.hdb.relations.dispersion import group_velocity
-
-
-def call(*words):
-    parser = argparse.ArgumentParser()
-    command.add_arguments(parser)
-    return command.run(parser.parse_args([str(w) for w in words]))
 
 
 @pytest.fixture(scope="module")

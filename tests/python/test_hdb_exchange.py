@@ -8,9 +8,9 @@ import shutil
 import h5py
 import numpy as np
 import pytest
+from tests.python.hdb_command import call
 
 from hydrodae import hdb
-from hydrodae.commands import hdb as command
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import writers
 from hydrodae.hdb.database.kernels import excitation_kernel, memory_length
@@ -161,15 +161,11 @@ def test_excitation_kernel_gives_the_force_back(sphere_tables):
 
 
 def test_export_command(array, tmp_path, capsys):
-    import argparse
-
-    parser = argparse.ArgumentParser()
-    command.add_arguments(parser)
     array.write(tmp_path / "hydro.h5")
     out = str(tmp_path / "out.nc")
     words = ["export", str(tmp_path / "hydro.h5"), "-o", out]
-    assert command.run(parser.parse_args(words)) == 0
+    assert call(*words) == 0
     assert "written" in capsys.readouterr().out
     same(hdb.read(out), array)
     with pytest.raises(ValueError, match=r"ends in \.h5"):
-        command.run(parser.parse_args([*words[:-1], "x.dat"]))
+        call(*words[:-1], "x.dat")

@@ -76,11 +76,7 @@ def test_triangles_of_hams(tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        (
-            "   5   8   0   0",
-            "   5   9   0   0",
-            r"13 lines for 9 nodes and 5 panels",
-        ),
+        ("   5   8   0   0", "   5   9   0   0", r"13 lines for 9 nodes and 5 panels"),
         ("  1  4  1", "  1  4  x", r"HullMesh\.pnl:18: expected 4 corners"),
         ("  1  4  1", "  1  4  77", r"HullMesh\.pnl:18: no point 77"),
     ],

@@ -58,10 +58,7 @@ def test_total_only_stands_in_diffraction_and_says_so(tmp_path):
 
 @pytest.mark.parametrize(
     ("kind", "variable", "convert"),
-    [
-        (2, '"f (Hz)"', lambda w: w / (2 * np.pi)),
-        (3, '"T (s)"', lambda w: 2 * np.pi / w),
-    ],
+    [(2, '"f (Hz)"', lambda w: w / (2 * np.pi)), (3, '"T (s)"', lambda w: 2 * np.pi / w)],
 )
 def test_version_3_frequencies_in_hertz_and_periods(tmp_path, kind, variable, convert):
     folder = NemohFolder()

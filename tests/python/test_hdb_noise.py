@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from hydrodae import hdb
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.relations.noise import last_digit, scatter
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 SEVERITY = {"info": 0, "warning": 1, "error": 2}
 
 

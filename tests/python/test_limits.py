@@ -10,6 +10,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
+from tests.errors import wrong
 
 from hydrodae import _core
 from hydrodae.commands import cli
@@ -158,7 +159,7 @@ def test_an_end_that_the_default_step_of_samples_never_reaches_is_refused(tmp_pa
     path.write_text(
         CASE.replace("[output]\nstep = 0.1\n", "").replace("10.0\nmethod", "1e9\nmethod")
     )
-    with pytest.raises(CaseError, match=r"end_time = 1e\+09 s is divided by output.step = 0.1 s"):
+    with wrong("solver.end_time"):
         _core.load_case(str(path), {})
 
 

@@ -12,7 +12,6 @@ import pytest
 from hydrodae import hdb
 from hydrodae.commands.cli import main
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.database.coordinates import split_label
 from hydrodae.hdb.preparation.mirroring import mirrored
 from hydrodae.hdb.readers.symmetric import ACROSS
 
@@ -28,8 +27,8 @@ def hulls(degrees: np.ndarray) -> hdb.HydroDatabase:
 
 def noisy(database: hdb.HydroDatabase, share: float) -> hdb.HydroDatabase:
     """A mesh whose forces miss the plane y = 0 by a share of the largest force or moment."""
-    odd = np.array([ACROSS[split_label(c)[1]] < 0.0 for c in database.coordinates])
-    turns = np.array([split_label(c)[1] >= 3 for c in database.coordinates])
+    odd = np.array([ACROSS[label.dof] < 0.0 for label in database.labels])
+    turns = np.array([label.is_rotation for label in database.labels])
     peak = np.abs(database.excitation).max(axis=(0, 1))
     size = np.where(turns, peak[turns].max(), peak[~turns].max())
     return replace(database, diffraction=database.diffraction + share * size * odd)

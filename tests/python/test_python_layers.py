@@ -20,7 +20,7 @@ LAYERS = [
     {"support", "starters"},
     {"records"},  # measured, from files
     # one database, which needs no kernel
-    {"hdb.relations", "hdb.hull"},
+    {"hdb.relations", "hdb.hull", "hdb.labels"},
     {"hdb.memory"},
     {"hdb.database"},
     {"hdb.bem", "hdb.checks", "hdb.interaction", "hdb.readers"},

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from tests import scenes
+from tests.errors import stopped
 
 import hydrodae
 from hydrodae import CaseError, Simulation
@@ -176,10 +177,10 @@ def test_a_failed_step_can_be_taken_back() -> None:
     loses = {"solver.step": 0.1, "solver.energy_guard": 1e-6, "solver.method": "generalized_alpha"}
     simulation = Simulation(hydrodae.Case.from_text(CART), set=loses)
     state = simulation.state()
-    with pytest.raises(hydrodae.SolverError, match="energy_guard"):
+    with stopped("energy"):
         to_the_end(simulation)
     for way_on in (simulation.advance, simulation.state):
-        with pytest.raises(hydrodae.SolverError, match="from a state that is restored only"):
+        with stopped("state"):
             way_on()
     simulation.restore(state)
     assert simulation.time == 0.0

@@ -13,11 +13,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.errors import wrong
 from tests.python.controlled import PI, Pi
 from tests.scenes import controlled_cart
 
 import hydrodae
-from hydrodae import Case, CaseError, SolverError, tcp
+from hydrodae import Case, SolverError, tcp
 from hydrodae.results import Results
 
 HEAD = struct.Struct("<IIQd")
@@ -210,10 +211,7 @@ NUMBERED_FAULTS: dict[str, tuple[Callable[[socket.socket], None], str]] = {
     "silent": (answers(b""), "sent nothing for 1 s"),
     "silent at the handshake": (listens, "sent nothing for 1 s"),
     "half a frame": (answers(frame(1, 0.0, 1.0)[:20]), "part of a frame only for 1 s"),
-    "half a frame, then killed": (
-        answers(frame(1, 0.0, 1.0)[:20], wait=False),
-        "inside a frame",
-    ),
+    "half a frame, then killed": (answers(frame(1, 0.0, 1.0)[:20], wait=False), "inside a frame"),
     "garbage": (answers(b"GET / HTTP/1.1\r\nHost: x\r\n\r\n"), "frame of"),
     "oversized": (answers(frame(1, 0.0, 1.0, 2.0)), "of length 36; expected 28"),
     "two frames": (answers(2 * frame(1, 0.0, 1.0)), "more than one frame"),
@@ -293,7 +291,7 @@ def test_random_frames_never_crash_or_hang(count: int) -> None:
 def test_a_port_in_use_is_told_before_the_run() -> None:
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
-        with pytest.raises(CaseError, match=f"cannot listen at 127.0.0.1:{port}"):
+        with wrong("controller.pi.port"):
             hydrodae.run(case(port))
 
 

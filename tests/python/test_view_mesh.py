@@ -16,10 +16,10 @@ from tests.verification import hulls
 import hydrodae
 from hydrodae.pictures.hulls import load_panels
 from hydrodae.pictures.plot import plot_overview
+from hydrodae.support.arrays import Array
 from hydrodae.viewer import ViewError, browser
 from hydrodae.viewer.stage import Stage
 
-Array = NDArray[np.float64]
 RHO, GRAVITY = 1025.0, 9.81
 SEA = """
 title = "Box in an oblique sea"

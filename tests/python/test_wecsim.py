@@ -69,11 +69,7 @@ def test_two_bodies_become_a_case(two_bodies: Path, tmp_path: Path) -> None:
     assert bodies["float"]["motion"] == bodies["spar_plate"]["motion"] == "planar"
     assert bodies["float"]["center_of_gravity"] == pytest.approx([0.0, 0.0, -1.5])
     (joint,) = found["joint"]
-    assert (joint["type"], joint["body_a"], joint["body_b"]) == (
-        "prismatic",
-        "spar_plate",
-        "float",
-    )
+    assert (joint["type"], joint["body_a"], joint["body_b"]) == ("prismatic", "spar_plate", "float")
     assert joint["point"] == [0.0, 0.0, -2.0]
     forces = {force["type"]: force for force in found["force"]}
     assert forces["pto_linear"]["damping"] == 1.2e6
@@ -367,8 +363,7 @@ def test_depth_of_the_waves_is_that_of_a_case_without_a_database(
         text = file.read_text().replace("'equilibrium'", "1e5")
         for n in (1, 2):
             text = text.replace(
-                f"body({n}) = bodyClass('hydroData/device.h5');",
-                f"body({n}) = {dry.format(n=n)}",
+                f"body({n}) = bodyClass('hydroData/device.h5');", f"body({n}) = {dry.format(n=n)}"
             )
         file.write_text(text)
     converted = convert(two_bodies, tmp_path / "case")

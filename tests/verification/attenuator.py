@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 import hydrodae
 from hydrodae.hdb import read
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.database.tables import Body, Complex
+from hydrodae.hdb.database.tables import Body
 from hydrodae.hdb.memory import fit_memory
+from hydrodae.support.arrays import Complex
 
 PLACES = {"fore": -20.0, "middle": 0.0, "aft": 20.0}  # x [m]
 DRAUGHT = 5.0  # [m]

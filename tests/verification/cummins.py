@@ -26,12 +26,11 @@ import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import CubicSpline, PPoly
 
+from hydrodae.hdb.labels import DOFS
 from hydrodae.linear import LinearModel
+from hydrodae.support.arrays import Array
 
-Array = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
-
-DOFS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 
 
 class RadiationData(Protocol):
@@ -116,12 +115,7 @@ class CumminsModel:
         return result
 
     def free_decay(
-        self,
-        q0: npt.ArrayLike,
-        time: Array,
-        *,
-        sigma: float | None = None,
-        omega_max: float = 40.0,
+        self, q0: npt.ArrayLike, time: Array, *, sigma: float | None = None, omega_max: float = 40.0
     ) -> Array:
         """Return q(t), (nt, m), after a release from q0 at rest in still water.
 

@@ -9,12 +9,7 @@ import hydrodae
 
 def sea(height: float, period: float) -> dict[str, object]:
     """A JONSWAP sea."""
-    return {
-        "name": "sea",
-        "type": "jonswap",
-        "significant_height": height,
-        "peak_period": period,
-    }
+    return {"name": "sea", "type": "jonswap", "significant_height": height, "peak_period": period}
 
 
 def rm3_with_drag(folder: Path, height: float, period: float = 8.0) -> hydrodae.Case:

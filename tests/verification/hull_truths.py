@@ -6,11 +6,11 @@ from pathlib import Path
 
 import h5py
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from tests.verification.hulls import Triangles
 
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
+
 GRAVITY = 9.81
 
 

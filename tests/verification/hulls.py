@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
+
 Triangles = NDArray[np.int64]
 
 

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 import hydrodae
 from hydrodae import _core
 from hydrodae.linear import LinearModel
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 class LinearSea:

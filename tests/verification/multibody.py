@@ -12,9 +12,9 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
+
 Errors = dict[str, float]
 Reference = Mapping[str, Any]
 

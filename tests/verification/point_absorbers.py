@@ -21,9 +21,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hydrodae.hdb.labels import DOFS
+
 GRAVITY, DENSITY = 9.80665, 1025.0
 RADIUS, DRAFT = 0.3, 0.6  # m
-DOFS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 
 
 @dataclass(frozen=True)

@@ -16,10 +16,9 @@ from dataclasses import dataclass
 
 import h5py
 import numpy as np
-import numpy.typing as npt
 from scipy.integrate import solve_ivp
 
-Array = npt.NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 MASS, INERTIA, LEVER, GRAVITY = 179_250.0, 1.3e6, 3.5, 9.81
 PLANAR = ("surge", "heave", "pitch")

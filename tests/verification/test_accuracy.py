@@ -71,26 +71,6 @@ axis = [0.0, 1.0, 0.0]
 [output]
 step = 0.05
 """
-HARDENING = """
-[[body]]
-name = "block"
-motion = "surge"
-mass = 1.0
-center_of_gravity = [10.0, 0.0, 0.0]
-initial = {displacement = [1.0, 0.0, 0.0]}
-[[force]]
-name = "spring"
-type = "spring_damper"
-body_a = "ground"
-body_b = "block"
-point_a = [0.0, 0.0, 0.0]
-point_b = [10.0, 0.0, 0.0]
-stiffness = 1.0
-damping = 0.0
-hardening = [0.0, 1.0]
-[output]
-step = 1.0
-"""
 
 
 CABLE = (

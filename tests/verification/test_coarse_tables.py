@@ -13,7 +13,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from scipy.integrate import quad
 from scipy.linalg import expm
 
@@ -23,8 +22,7 @@ from hydrodae.hdb.database import HydroDatabase, kernels
 from hydrodae.hdb.database.radiation_kernel import LIMIT, make_kernel
 from hydrodae.hdb.database.tables import Body
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 RHO, GRAVITY, VOLUME, AREA = 1000.0, 9.81, 200.0, 78.5
 MASS, MASS_INF = RHO * VOLUME, 1.0e5  # kg

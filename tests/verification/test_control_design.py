@@ -152,9 +152,7 @@ damping = 1.5
 """
 
 
-def test_a_take_off_behind_a_gear_is_no_part_of_the_device(
-    repository: Path,
-) -> None:
+def test_a_take_off_behind_a_gear_is_no_part_of_the_device(repository: Path) -> None:
     """Its inertia is; `keep` counts its friction: 100^2 times 2 kg m2 and 1.5 N m s."""
     omega = 1.2
     case = case_with(repository, PTO + GEARED)

@@ -230,8 +230,7 @@ def test_small_releases_of_the_locked_device_match_linear_theory(
 def test_energy_of_an_undamped_flap(case: Path, rtol: float, drift: float) -> None:
     """Without memory nothing takes energy: it drifts over 1000 s by what the tolerance allows."""
     results = hydrodae.run(
-        case,
-        set={"hydro.radiation": "none", "solver.rtol": rtol, "solver.end_time": 1000.0},
+        case, set={"hydro.radiation": "none", "solver.rtol": rtol, "solver.end_time": 1000.0}
     )
     total = results["energy/total"].values
     # Energy of the swing: above the potential at rest (angle 0, which is the reference pose).

@@ -8,14 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 import scipy.sparse as sp
-from numpy.typing import NDArray
 from scipy.sparse.linalg import spsolve
 
 import hydrodae
 from hydrodae.errors import CaseError
 from hydrodae.mooring.line_at_rest import Catenary
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 class Chain:

@@ -106,11 +106,7 @@ def growth(path: Path, axes: str, period: float, height: float) -> float:
         "sea.ramp": 50.0,
         "body.float.initial.rotation_deg": [0.0, 0.2, 0.0],
         "body.spar.initial.rotation_deg": [0.0, 0.2, 0.0],
-        "body.spar.initial.displacement": [
-            -arm * np.sin(tilt),
-            0.0,
-            arm * (1.0 - np.cos(tilt)),
-        ],
+        "body.spar.initial.displacement": [-arm * np.sin(tilt), 0.0, arm * (1.0 - np.cos(tilt))],
         "solver.end_time": 400.0,
         "solver.rtol": 1e-6,
         "output.step": period / 20,

@@ -102,11 +102,7 @@ def test_explicit_order_8_on_the_pendulum_is_at_least_8(pendulum_end: NDArray) -
     ids=str,
 )
 def test_order_on_the_flaps_with_memory(
-    solver: dict[str, Any],
-    steps: tuple[float, float],
-    theory: int,
-    band: float,
-    flaps_end: NDArray,
+    solver: dict[str, Any], steps: tuple[float, float], theory: int, band: float, flaps_end: NDArray
 ) -> None:
     measured = order(FLAPS, HINGES, 40.0, steps, flaps_end, **solver)
     assert measured == pytest.approx(theory, abs=band)

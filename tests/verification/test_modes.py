@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import hydrodae
-from hydrodae.hdb.database.coordinates import DOFS
+from hydrodae.hdb.labels import DOFS
 from hydrodae.linear import LinearModel
 
 TIGHT: dict[str, Any] = {"rtol": 1e-9, "accuracy": "none"}

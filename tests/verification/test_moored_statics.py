@@ -6,14 +6,13 @@ import math
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from scipy.optimize import brentq, root
 
 import hydrodae
 from hydrodae.linear import LinearModel
 from hydrodae.mooring.stiffness import mooring_stiffness
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 LENGTH, WEIGHT, EA = 400.0, 1200.0, 5e7
 G = 9.80665
 

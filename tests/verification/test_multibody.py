@@ -181,8 +181,7 @@ def test_forty_windows_converge(cases: Path) -> None:
     """IFToMM A02 as published, by its own convergence: B0 within 1e-3 m, energy within 0.1 J."""
     runs = [
         hydrodae.run(
-            cases / "n_four_bar_40.toml",
-            set={"solver.method": "explicit_rk", "solver.rtol": rtol},
+            cases / "n_four_bar_40.toml", set={"solver.method": "explicit_rk", "solver.rtol": rtol}
         )
         for rtol in (1e-6, 1e-8)
     ]

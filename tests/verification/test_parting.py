@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.errors import wrong
 from tests.verification.blocks import METHODS, G, heaving, height_of, run_text
 
 import hydrodae
@@ -161,7 +162,7 @@ def test_what_cannot_be_is_refused(breaks: str, load: float, message: str) -> No
 
 def test_a_rope_that_breaks_needs_to_know_at_what_load(tmp_path: Path) -> None:
     text = dropped("rope", "breaks = true").replace("breaking_load", "#")
-    with pytest.raises(CaseError, match="needs its 'breaking_load'"):
+    with wrong("force.rope.breaks"):
         run_text(text, 0.1)
 
 

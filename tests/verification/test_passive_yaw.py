@@ -15,8 +15,7 @@ import hydrodae
 from hydrodae import _core, hdb
 from hydrodae.errors import SolverError
 from hydrodae.linear import LinearModel
-
-Complex = NDArray[np.complex128]
+from hydrodae.support.arrays import Complex
 
 G = 9.81
 POINT = np.array([3.0, 1.0, -1.0])  # the centre of gravity

@@ -12,14 +12,12 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from tests.scenes import run_for, slide, table
 
 import hydrodae
 from hydrodae.study.stability import water
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 MASS, STIFFNESS, DAMPING, LATE, DELAY, END = 1000.0, 4000.0, 400.0, 1500.0, 5.0, 40.0
 EXACT = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-14}

@@ -41,18 +41,8 @@ def cell(
     if motion == "heave":
         text = text.replace("hydro.h5", "heave.h5").replace('"planar"', '"heave"')
     text += STOP.format(lower=-stroke, upper=stroke, restitution=restitution)
-    wave = {
-        "name": "sea",
-        "type": "jonswap",
-        "significant_height": height,
-        "peak_period": period,
-    }
-    values = {
-        "wave": [wave],
-        "sea.ramp": RAMP,
-        "solver.end_time": 300.0,
-        "output.step": 0.1,
-    }
+    wave = {"name": "sea", "type": "jonswap", "significant_height": height, "peak_period": period}
+    values = {"wave": [wave], "sea.ramp": RAMP, "solver.end_time": 300.0, "output.step": 0.1}
     return hydrodae.Case.from_text(text, folder).with_values(values)
 
 
@@ -155,12 +145,7 @@ def test_no_cell_stops(rm3: Path, stroke: float, restitution: float) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("stroke", "restitution", "method"),
-    [
-        (2.5, 0.3, "ida"),
-        (1.5, 0.3, "ida"),
-        (0.75, 0.0, "ida"),
-        (0.75, 0.0, "radau"),
-    ],
+    [(2.5, 0.3, "ida"), (1.5, 0.3, "ida"), (0.75, 0.0, "ida"), (0.75, 0.0, "radau")],
 )
 def test_no_cell_stops_in_the_plane(
     rm3_planar: Path, stroke: float, restitution: float, method: str

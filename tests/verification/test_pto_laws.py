@@ -6,10 +6,9 @@ import math
 
 import numpy as np
 import pytest
+from tests.errors import wrong
 from tests.scenes import damped_ball
 from tests.verification.blocks import METHODS, block, run_text
-
-from hydrodae.errors import CaseError
 
 GENERAL = """
 [[force]]
@@ -88,9 +87,9 @@ damping = 3.0
     assert run["joints/rod/displacement_rate"].values[-1] == pytest.approx(1.0, abs=1e-8)
     assert run["joints/rod/angle_rate"].values[-1] == pytest.approx(math.exp(-2.0), abs=1e-7)
     assert run["forces/brake/torque"].attrs["unit"] == "N m"
-    with pytest.raises(CaseError, match="more than one coordinate"):
+    with wrong("force.brake.joint"):
         run_text(text.replace("COORDINATE", ""), 1.0)
-    with pytest.raises(CaseError, match="angle"):
+    with wrong("force.brake.coordinate"):
         run_text(text.replace("COORDINATE", 'coordinate = "angel"'), 1.0)
 
 

@@ -7,14 +7,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 import hydrodae
 from hydrodae.linear import LinearModel
 from hydrodae.results import sampling
 from hydrodae.starters import create
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 STEP, PEAK = 0.5, 8.0  # s
 
 

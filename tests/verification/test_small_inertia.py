@@ -223,10 +223,7 @@ def test_parallelogram_of_massless_links_carries_its_platform_as_a_pendulum(
 def test_a_direction_without_inertia_that_nothing_holds_is_named(
     tmp_path: Path, joints: list[dict[str, Any]], key: str, words: str
 ) -> None:
-    bodies = [
-        _body("rod", 0.0, [0.0, 0.0, -0.5], 0.0),
-        _body("bob", 3.0, [0.0, 0.0, -1.0], 1.0),
-    ]
+    bodies = [_body("rod", 0.0, [0.0, 0.0, -0.5], 0.0), _body("bob", 3.0, [0.0, 0.0, -1.0], 1.0)]
     with pytest.raises(hydrodae.CaseError, match=r"(?s)" + words.replace("[", r"\[")) as error:
         _run(tmp_path, {"body": bodies, "joint": joints}, 1.0, "auto")
     assert key in str(error.value) or "case.toml" in str(error.value)

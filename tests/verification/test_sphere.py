@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.errors import wrong
 
 import hydrodae
 
@@ -103,9 +104,9 @@ def test_irregular_sea_has_the_energy_and_response_of_its_spectrum(repository: P
 
 def test_waves_outside_the_database_are_refused(repository: Path) -> None:
     case = repository / "cases" / "sphere" / "wave.toml"
-    with pytest.raises(hydrodae.CaseError, match=r"heading_deg: .*90 deg, outside"):
+    with wrong("wave.swell.heading_deg"):
         hydrodae.run(case, set={"wave.swell.heading_deg": 90.0})
-    with pytest.raises(hydrodae.CaseError, match=r"6\.283\d* rad/s is outside"):
+    with wrong("wave.swell.period"):
         hydrodae.run(case, set={"wave.swell.period": 1.0})
 
 
@@ -120,7 +121,6 @@ def test_constant_radiation_is_exact_at_its_frequency(repository: Path) -> None:
     }
     memory = hydrodae.run(case, set=values)
     constant = hydrodae.run(
-        case,
-        set={**values, "hydro.radiation": "constant", "hydro.frequency": 2.0 * np.pi / 5.0},
+        case, set={**values, "hydro.radiation": "constant", "hydro.frequency": 2.0 * np.pi / 5.0}
     )
     assert rao(constant, 5.0) == pytest.approx(rao(memory, 5.0), rel=1e-3)

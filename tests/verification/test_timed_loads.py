@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 import pytest
+from tests.errors import wrong
 from tests.verification.blocks import METHODS, on_a_slide
 
 import hydrodae
-from hydrodae.errors import CaseError
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -35,5 +35,5 @@ def test_a_body_may_not_have_the_name_of_a_channel() -> None:
     text += '[[force]]\ntype = "pto_linear"\nname = "pto"\njoint = "slide"\ndamping = 1.0\n'
     case = hydrodae.Case.from_text(text + "[solver]\nend_time = 1.0\n")
     for look in (hydrodae.run, hydrodae.check):
-        with pytest.raises(CaseError, match="name of a channel"):
+        with wrong("body.force.name"):
             look(case)

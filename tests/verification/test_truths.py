@@ -10,8 +10,7 @@ LONG = ("andrews", "bricard", "light_joint", "pendulum_1000s", "tumbling_body")
 
 
 @pytest.mark.parametrize(
-    "name",
-    [pytest.param(n, marks=pytest.mark.slow if n in LONG else ()) for n in truths.PROBLEMS],
+    "name", [pytest.param(n, marks=pytest.mark.slow if n in LONG else ()) for n in truths.PROBLEMS]
 )
 def test_a_stored_motion_is_what_its_script_makes(name: str) -> None:
     stored, made = truths.read(name), truths.solve(name)

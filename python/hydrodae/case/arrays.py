@@ -9,19 +9,18 @@ from __future__ import annotations
 import difflib
 import tomllib
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from hydrodae.case.scene import Scene
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.coordinates import body_name
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 #: Tables of which every unit has its own entries; the others are of the whole array.
 OF_UNITS = (
@@ -344,18 +343,9 @@ def limit(
         _check_names(units or {})
         owner = np.array([_unit_of(name, list(units or {})) for name in names])
         near = owner[:, None] == owner
-    bodies = [names.index(label.rpartition(".")[0]) for label in database.coordinates]
+    limited = database.without_coupling(near)
+    bodies = [names.index(label.body) for label in database.labels]
     kept = near[np.ix_(bodies, bodies)]
-    limited = replace(
-        database,
-        added_mass=database.added_mass * kept,
-        radiation_damping=database.radiation_damping * kept,
-        added_mass_inf=database.added_mass_inf * kept,
-        added_mass_inf_std=database.added_mass_inf_std * kept,
-        repairs=(*database.repairs, "coupling: blocks of A and B of far bodies set to zero"),
-        kernel=None,
-        memory={},
-    )
     pairs = len(names) * (len(names) - 1)
     scaled = [_scaled(table) for table in (database.added_mass, database.radiation_damping)]
     lost = max(float(np.abs(table * ~kept).max(initial=0.0)) for table in scaled)

@@ -193,9 +193,7 @@ class Case:
         return self._scene.summary()
 
     def examine(
-        self,
-        drives: Mapping[str, Drive] | None = None,
-        forces: Mapping[str, Force] | None = None,
+        self, drives: Mapping[str, Drive] | None = None, forces: Mapping[str, Force] | None = None
     ) -> str:
         """Return the summary with what the case costs, its mobility and redundant rows.
 
@@ -212,9 +210,7 @@ class Case:
         from hydrodae import _core
 
         return _core.examine(
-            self._scene,
-            kernel_drives(self._scene, drives),
-            kernel_forces(self._scene, forces),
+            self._scene, kernel_drives(self._scene, drives), kernel_forces(self._scene, forces)
         )
 
     def __repr__(self) -> str:

@@ -7,13 +7,11 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.case import Case
 from hydrodae.case.case import parse_assignment
 from hydrodae.errors import CaseError, DatabaseError
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 def given_case(arguments: argparse.Namespace, values: Mapping[str, Any] | None = None) -> Case:
@@ -33,6 +31,17 @@ def parse_numbers(what: str, text: str, count: int) -> list[float]:
         values = []
     if len(values) != count or not np.all(np.isfinite(values)):
         raise CaseError(f"{what} {text!r}: expected {count} numbers separated by commas")
+    return values
+
+
+def parse_positive(option: str, text: str) -> list[float]:
+    """Read numbers > 0 separated by commas; raise CaseError if they are none."""
+    try:
+        values = [float(v) for v in text.split(",")]
+    except ValueError:
+        values = [0.0]
+    if not all(0.0 < value < np.inf for value in values):
+        raise CaseError(f"{option} {text!r}: expected numbers > 0 with commas")
     return values
 
 

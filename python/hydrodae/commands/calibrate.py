@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from hydrodae.commands.arguments import given_case, parse_numbers
-from hydrodae.commands.machine import add_json, of_calibration, print_json
+from hydrodae.commands.machine import of_calibration, print_json
+from hydrodae.commands.options import add_case, add_json, add_quiet
 from hydrodae.errors import CaseError
 from hydrodae.pictures.plot import save
 from hydrodae.study.calibrate import Free, Record, calibrate, read_record, read_tests
@@ -18,9 +19,7 @@ from hydrodae.support.progress import StageLine
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `hydrodae calibrate`."""
-    parser.add_argument("case", metavar="CASE", help="case file (TOML)")
-    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
-    parser.add_argument("--library", metavar="FILE", action="append", default=[], help="as in run")
+    add_case(parser)
     parser.add_argument(
         "--record",
         metavar="FILE",
@@ -82,17 +81,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--picture", metavar="FILE", help="measured, before and after (.png, ...)")
     add_json(parser)
-    parser.add_argument("-q", "--quiet", action="store_true", help="no progress")
+    add_quiet(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Fit, print the report, and write what is asked for.
-
-    Raises
-    ------
-    HydrodaeError
-        As `hydrodae.calibrate`.
-    """
+    """Fit, print the report, and write what is asked for."""
     case = given_case(arguments)
     records, free = _asked(arguments)
     for record in records:

@@ -9,6 +9,7 @@ from typing import Any
 from rich.console import Console
 
 from hydrodae.commands.arguments import given_case
+from hydrodae.commands.options import add_case
 from hydrodae.errors import CaseError
 
 DONE = 0
@@ -100,7 +101,7 @@ def add_arguments(commands: Any) -> None:
 
 
 def _common(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("case", metavar="CASE", help="case file (TOML)")
+    add_case(parser)
     parser.add_argument(
         "--methods", metavar="A,B,...", help="names, or name:order such as radau:13"
     )
@@ -122,8 +123,6 @@ def _common(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--time-limit", metavar="S", type=float, help="longest wall time of a run [s] (60)"
     )
-    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
-    parser.add_argument("--library", metavar="FILE", action="append", default=[], help="as in run")
 
 
 def _options(arguments: argparse.Namespace) -> dict[str, Any]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from hydrodae.commands.machine import add_json, print_json
+from hydrodae.commands.machine import print_json
+from hydrodae.commands.options import add_case, add_json
 
 
 def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -15,9 +16,7 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         description="Print the scene as a tree, its unknowns, multipliers and mobility, redundant "
         "constraint rows, and how far the bodies were moved to close the joints.",
     )
-    parser.add_argument("case", metavar="CASE", help="case file (TOML)")
-    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
-    parser.add_argument("--library", metavar="FILE", action="append", default=[], help="as in run")
+    add_case(parser)
     parser.add_argument(
         "--all", action="store_true", help="every line, also of many parts that are alike"
     )

@@ -13,7 +13,8 @@ import sys
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import TextIO
+from importlib import import_module
+from typing import Any, TextIO
 
 from hydrodae.commands import (
     chart,
@@ -132,89 +133,59 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
     )
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
 
+    def later(name: str, *, module: str = "", **words: Any) -> None:
+        own = commands.add_parser(name, **words)
+        if command in ([name], ALL):
+            found = import_module(f"hydrodae.commands.{module or name}")
+            found.add_arguments(own)
+            own.set_defaults(call=found.run)
+
     new.add_parser(commands)
     run.add_parser(commands)
     check.add_parser(commands)
     equilibrium.add_parser(commands)
 
-    rao = commands.add_parser(
+    later(
         "rao",
         help="response to waves in the frequency domain",
         description="Natural modes and response amplitude operators of a case, linearised about "
         "its static equilibrium, from the frequency tables of its database. With --time-domain, "
         "also run regular waves and compare.",
     )
-    if command in (["rao"], ALL):
-        from hydrodae.commands import rao as rao_command
-
-        rao_command.add_arguments(rao)
-        rao.set_defaults(call=rao_command.run)
-
-    spectral = commands.add_parser(
+    later(
         "spectral",
         help="motion in the sea of a case, with drag and friction linearised in it",
         description="Standard deviations, mean powers and equivalent damping of a case in its sea. "
         "The model is linear: drag, friction and nonlinear power take-offs become the nearest "
         "linear loads for the motion that follows. With --seeds, also run the case and compare.",
     )
-    if command in (["spectral"], ALL):
-        from hydrodae.commands import spectral as spectral_command
-
-        spectral_command.add_arguments(spectral)
-        spectral.set_defaults(call=spectral_command.run)
-
-    ladder = commands.add_parser(
+    later(
         "ladder",
         help="what each model of radiation costs on a case, and what it gets wrong",
         description="Run a case with radiation none, constant, exponential and convolution. Print "
         "memory, solver time, error of the kernel, and error of the motion against the next "
         "higher model.",
     )
-    if command in (["ladder"], ALL):
-        from hydrodae.commands import ladder as ladder_command
-
-        ladder_command.add_arguments(ladder)
-        ladder.set_defaults(call=ladder_command.run)
-
-    sweep = commands.add_parser(
+    later(
         "sweep",
         help="run a case with many values of its keys, on all cores: power matrix, annual energy",
         description="Run every point of a study. Finished runs are kept at once: an interrupted or "
         "killed sweep continues where it stopped. A run that fails is a row with its reason.",
     )
-    if command in (["sweep"], ALL):
-        from hydrodae.commands import sweep as sweep_command
-
-        sweep_command.add_arguments(sweep)
-        sweep.set_defaults(call=sweep_command.run)
-
-    calibrate = commands.add_parser(
+    later(
         "calibrate",
         help="fit parameters of a case to what was measured in a tank",
         description="Fit numbers of a case to measured channels of one or several tests, by least "
         "squares. The intervals allow for correlated differences. Parameters that the records do "
         "not determine are refused by name.",
     )
-    if command in (["calibrate"], ALL):
-        from hydrodae.commands import calibrate as calibrate_command
-
-        calibrate_command.add_arguments(calibrate)
-        calibrate.set_defaults(call=calibrate_command.run)
-
-    mooring = commands.add_parser(
-        "mooring", help="mooring matrices from lines, and MoorDyn's input files"
-    )
-    if command in (["mooring"], ALL):
-        from hydrodae.commands import mooring as mooring_command
-
-        mooring_command.add_arguments(mooring)
-        mooring.set_defaults(call=mooring_command.run)
+    later("mooring", help="mooring matrices from lines, and MoorDyn's input files")
 
     record.add_parser(commands)
     control.add_parser(commands)
     fmu.add_parser(commands)
     plot.add_parser(commands)
-    view = commands.add_parser(
+    later(
         "view",
         help="see results in three dimensions: a page, a picture, a video, files for ParaView",
         description="Write one HTML file that shows bodies, joints, lines and the sea of a run in "
@@ -222,34 +193,18 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         "or files for ParaView. A case file is shown at its start, without a run.",
         epilog="example: hydrodae view waves.h5 --picture waves.png --time 40 --camera side",
     )
-    if command in (["view"], ALL):
-        from hydrodae.commands import view as view_command
-
-        view_command.add_arguments(view)
-        view.set_defaults(call=view_command.run)
     report.add_parser(commands)
     chart.add_arguments(commands)
 
-    hdb = commands.add_parser("hdb", help="prepare and look at hydrodynamic databases")
-    if command in (["hdb"], ALL):
-        from hydrodae.commands import hdb as hdb_command
-
-        hdb_command.add_arguments(hdb)
-        hdb.set_defaults(call=hdb_command.run)
-
-    stability = commands.add_parser(
+    later("hdb", help="prepare and look at hydrodynamic databases")
+    later(
         "stability-map",
+        module="stability",
         help="run the methods on hard scenes and map which pass, stop or go wrong",
         description="Run the methods on hard scenes. A cell shows the error of a run that passed, "
         "or that it stopped, was refused (-), or returned success with a wrong motion. Exit code 1 "
         "if one did.",
     )
-    if command in (["stability-map"], ALL):
-        from hydrodae.commands import stability as stability_command
-
-        stability_command.add_arguments(stability)
-        stability.set_defaults(call=stability_command.run)
-
     keys.add_parser(commands)
     schema.add_parser(commands)
     completion.add_parser(commands, lambda: _parser(ALL))

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from hydrodae.commands.machine import add_json, of_equilibrium, print_json
+from hydrodae.commands.machine import of_equilibrium, print_json
+from hydrodae.commands.options import add_case, add_json
 
 
 def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -17,9 +18,7 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "coordinates that bodies do not have. For moored scenes print tensions, stiffness of the "
         "moorings and natural periods.",
     )
-    parser.add_argument("case", metavar="CASE", help="case file (TOML)")
-    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
-    parser.add_argument("--library", metavar="FILE", action="append", default=[], help="as in run")
+    add_case(parser)
     add_json(parser)
     parser.set_defaults(call=run)
 

@@ -34,10 +34,7 @@ EXAMPLES = {
         "hydrodae record gauge.txt --columns 'time [s],eta [mm]' -o gauge.csv --heading 30",
         "hydrodae record spectrum.csv",
     ),
-    "mooring": (
-        "hydrodae mooring linearise case.toml",
-        "hydrodae mooring import lines.dat",
-    ),
+    "mooring": ("hydrodae mooring linearise case.toml", "hydrodae mooring import lines.dat"),
     "control": ("hydrodae control design case.toml --joint slide --period 8",),
     "fmu": ("hydrodae fmu case.toml -o device.fmu --inputs 'forces/pto/*'",),
     "view": (

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 
+from hydrodae.commands.options import add_case
+
 
 def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add the command to those of `hydrodae`."""
@@ -14,7 +16,7 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "case and its database. Inputs hold from one communication point to the next.",
         epilog="example: hydrodae fmu case.toml -o device.fmu --inputs 'forces/pto/*'",
     )
-    parser.add_argument("case", metavar="CASE", help="case file (TOML)")
+    add_case(parser, library=False)
     parser.add_argument(
         "-o", "--output", metavar="FILE", help="the FMU (default: CASE with the ending .fmu)"
     )
@@ -32,13 +34,6 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         default=[],
         help="numbers, truth values and words of the case that an importer may set before the run, "
         "such as solver.rtol",
-    )
-    parser.add_argument(
-        "--set",
-        metavar="KEY=VALUE",
-        action="append",
-        default=[],
-        help="replace a value of the case, such as solver.rtol=1e-8; may be repeated",
     )
     parser.set_defaults(call=run, library=[])
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 import argparse
 
 from hydrodae.commands.arguments import given_case
+from hydrodae.commands.options import add_case
 from hydrodae.study.ladder import ladder
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `hydrodae ladder`."""
-    parser.add_argument("case", metavar="CASE", help="case file (TOML)")
+    add_case(parser)
     parser.add_argument(
         "--frequency",
         metavar="W",
@@ -22,8 +23,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--channel", metavar="NAME", help="whose error is printed (default: what moves most)"
     )
     parser.add_argument("--repeat", metavar="N", type=int, default=3, help="time: best of N (3)")
-    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
-    parser.add_argument("--library", metavar="FILE", action="append", default=[], help="as in run")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import json
 import math
 from collections.abc import Mapping, Sequence
@@ -24,11 +23,6 @@ if TYPE_CHECKING:
     from hydrodae.study.spectral import Spectral
     from hydrodae.study.spectral.seeds import Seeds
     from hydrodae.study.sweep.optimise import Optimum
-
-
-def add_json(parser: argparse.ArgumentParser) -> None:
-    """Add --json to a command."""
-    parser.add_argument("--json", action="store_true", help="print one JSON object, for machines")
 
 
 def print_json(content: Mapping[str, Any]) -> None:
@@ -93,11 +87,7 @@ def of_rao(found: Rao) -> dict[str, Any]:
 def _of_response(response: Response) -> dict[str, Any]:
     """Amplitude and phase [rad] of each channel over omega [rad/s], per metre of wave amplitude."""
     columns = {
-        name: {
-            "unit": unit,
-            "amplitude": np.abs(response[name]),
-            "phase": np.angle(response[name]),
-        }
+        name: {"unit": unit, "amplitude": np.abs(response[name]), "phase": np.angle(response[name])}
         for name, unit in zip(response.names, response.units, strict=True)
     }
     head = {"omega": response.omega, "heading": response.heading, "channels": columns}

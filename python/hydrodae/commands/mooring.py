@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from hydrodae.commands.options import add_case
 from hydrodae.support import outputs
 
 
@@ -17,15 +18,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         description="Linearise ropes and lines about the static equilibrium of a case; print the "
         "[[force]] tables of type mooring_matrix that stand for them.",
     )
-    linearise.add_argument("case", metavar="CASE", help="case file (TOML)")
+    add_case(linearise)
     linearise.add_argument(
         "--force", metavar="NAME", action="append", default=[], help="only this one; repeatable"
-    )
-    linearise.add_argument(
-        "--set", metavar="KEY=VALUE", action="append", default=[], help="as in run"
-    )
-    linearise.add_argument(
-        "--library", metavar="FILE", action="append", default=[], help="as in run"
     )
     _add_output(linearise)
     linearise.set_defaults(work=_linearise)

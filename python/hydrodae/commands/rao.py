@@ -8,8 +8,9 @@ import numpy as np
 
 from hydrodae.case import Case
 from hydrodae.case.case import parse_assignment
-from hydrodae.commands.arguments import heading_deg
-from hydrodae.commands.machine import add_json, of_rao, print_json
+from hydrodae.commands.arguments import heading_deg, parse_positive
+from hydrodae.commands.machine import of_rao, print_json
+from hydrodae.commands.options import add_case, add_json
 from hydrodae.errors import CaseError
 from hydrodae.linear import LinearModel, without_memory
 from hydrodae.pictures.plot import save
@@ -18,9 +19,7 @@ from hydrodae.study.rao import output, rao, text
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `hydrodae rao`."""
-    parser.add_argument("case", metavar="CASE", help="case file (TOML)")
-    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
-    parser.add_argument("--library", metavar="FILE", action="append", default=[], help="as in run")
+    add_case(parser)
     parser.add_argument(
         "--periods",
         metavar="T1,T2,...",
@@ -72,9 +71,8 @@ def run(arguments: argparse.Namespace) -> int:
         print(opening)
     if arguments.output:
         output.check_output(arguments.output)
-    found = rao(
-        model, periods=_periods(arguments.periods), heading=float(np.radians(arguments.heading))
-    )
+    periods = arguments.periods and parse_positive("--periods", arguments.periods)
+    found = rao(model, periods=periods, heading=float(np.radians(arguments.heading)))
     written = [f"written: {found.write(arguments.output)}"] if arguments.output else []
     if arguments.picture:
         written.append(f"picture: {save(found.draw(), arguments.picture)}")
@@ -93,15 +91,3 @@ def run(arguments: argparse.Namespace) -> int:
     if model.case.scene.wave_names:
         print("\n" + found.sea_table())
     return 0
-
-
-def _periods(text: str | None) -> list[float] | None:
-    if text is None:
-        return None
-    try:
-        values = [float(word) for word in text.split(",")]
-    except ValueError:
-        raise CaseError(f"--periods {text!r}: expected numbers with commas") from None
-    if not all(value > 0.0 for value in values):
-        raise CaseError(f"--periods {text!r}: expected numbers > 0 [s]")
-    return values

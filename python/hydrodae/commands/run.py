@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
+from hydrodae.commands.options import add_case, add_json, add_quiet
+
 if TYPE_CHECKING:
     from hydrodae.results import Results
 
@@ -15,23 +17,9 @@ PICTURES = (".png", ".pdf", ".svg", ".jpg", ".jpeg")
 def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add the command to those of `hydrodae`."""
     parser = commands.add_parser("run", help="simulate a case file", description="Simulate a case.")
-    parser.add_argument("case", metavar="CASE", help="case file (TOML)")
+    add_case(parser)
     parser.add_argument(
         "-o", "--output", metavar="FILE", help="results file (default: CASE with the ending .h5)"
-    )
-    parser.add_argument(
-        "--set",
-        metavar="KEY=VALUE",
-        action="append",
-        default=[],
-        help="replace a value of the case, such as solver.rtol=1e-8; may be repeated",
-    )
-    parser.add_argument(
-        "--library",
-        metavar="FILE",
-        action="append",
-        default=[],
-        help="take force laws of types library_load and library_wrench from this shared library",
     )
     parser.add_argument(
         "--method", metavar="NAME", help="integrator: the same as --set solver.method"
@@ -64,8 +52,8 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         action="store_true",
         help="go on from the checkpoint of a run that was cut off, or stopped",
     )
-    parser.add_argument("--json", action="store_true", help="print one JSON object, for machines")
-    parser.add_argument("-q", "--quiet", action="store_true", help="no progress, no summary")
+    add_json(parser)
+    add_quiet(parser, "no progress, no summary")
     parser.set_defaults(call=run)
 
 

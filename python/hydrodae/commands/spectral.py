@@ -5,16 +5,15 @@ from __future__ import annotations
 import argparse
 
 from hydrodae.commands.arguments import given_case
-from hydrodae.commands.machine import add_json, of_spectral, print_json
+from hydrodae.commands.machine import of_spectral, print_json
+from hydrodae.commands.options import add_case, add_json
 from hydrodae.study.rao.output import check_output
 from hydrodae.study.spectral import spectral
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `hydrodae spectral`."""
-    parser.add_argument("case", metavar="CASE", help="case file (TOML) with waves")
-    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
-    parser.add_argument("--library", metavar="FILE", action="append", default=[], help="as in run")
+    add_case(parser, "case file (TOML) with waves")
     parser.add_argument(
         "--seeds", metavar="N", type=int, help="also run the case with so many seeds and compare"
     )

@@ -6,7 +6,8 @@ import argparse
 from pathlib import Path
 
 from hydrodae.case.case import parse_assignment
-from hydrodae.commands.machine import add_json, of_optimum, of_sweep, print_json
+from hydrodae.commands.machine import of_optimum, of_sweep, print_json
+from hydrodae.commands.options import add_json, add_quiet
 from hydrodae.errors import CaseError
 from hydrodae.study.sweep import sweep, text
 from hydrodae.study.sweep.optimise import optimise
@@ -36,7 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="find the best values of the parameters in [optimise], by gradients",
     )
     add_json(parser)
-    parser.add_argument("-q", "--quiet", action="store_true", help="no progress")
+    add_quiet(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -15,14 +15,7 @@ if TYPE_CHECKING:
     from hydrodae.control.plant import Plant
     from hydrodae.control.predictive import ModelPredictive
 
-__all__ = [
-    "AutoregressiveForecast",
-    "KnownSea",
-    "Matching",
-    "ModelPredictive",
-    "Plant",
-    "match",
-]
+__all__ = ["AutoregressiveForecast", "KnownSea", "Matching", "ModelPredictive", "Plant", "match"]
 
 #: Where each name is; it is imported when it is first asked for.
 _LATER = {

@@ -5,12 +5,10 @@ from __future__ import annotations
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.control.plant import Plant
 from hydrodae.linear.sea import wave_components
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 class Forecast(Protocol):

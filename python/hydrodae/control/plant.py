@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.linalg import expm
 
 from hydrodae.case.case import CaseLike
@@ -24,9 +24,7 @@ from hydrodae.errors import CaseError
 from hydrodae.hdb.memory import ExponentialMemory
 from hydrodae.linear import LinearModel
 from hydrodae.linear.states import state_matrix
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from hydrodae.support.arrays import Array, Complex
 
 
 class Plant:

@@ -6,15 +6,13 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 
 from hydrodae.control.forecast import Forecast
 from hydrodae.control.plant import Plant
 from hydrodae.errors import CaseError, SolverError
+from hydrodae.support.arrays import Array
 from hydrodae.support.extras import install_command
-
-Array = NDArray[np.float64]
 
 #: How expensive it is to exceed the stroke or the velocity, against the curvature of the program.
 _EXCEED = 1e4

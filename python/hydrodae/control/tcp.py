@@ -19,8 +19,7 @@ import socket
 import struct
 import time as clock
 from collections.abc import Iterator, Sequence
-from types import TracebackType
-from typing import Any, Protocol
+from typing import Any, Protocol, Self
 
 __all__ = ["Hotint", "Numbered", "Run", "TcpError", "connect", "listen"]
 
@@ -58,12 +57,7 @@ class Run(Protocol):
 
     def __enter__(self) -> Run: ...
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None: ...
+    def __exit__(self, *_: object) -> None: ...
 
 
 class _Connection:
@@ -78,6 +72,12 @@ class _Connection:
     def close(self) -> None:
         """Close the connection."""
         self._socket.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
     def _receive(self, count: int) -> bytes:
         """So many bytes; mostly one call of the operating system brings them all."""
@@ -157,12 +157,6 @@ class Numbered(_Connection):
         """End the run instead of an answer; what it has computed is kept."""
         self._socket.sendall(_HEAD.pack(_BEHIND_LENGTH, _CLOSE, self._sequence, self._time))
 
-    def __enter__(self) -> Numbered:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
-
 
 class Hotint(_Connection):
     """The protocol "hotint": doubles only, there [t, u1 ... un, flag], back [y1 ... ym, flag].
@@ -196,12 +190,6 @@ class Hotint(_Connection):
         """End the run instead of an answer; what it has computed is kept."""
         count = self._back.size // 8
         self._socket.sendall(self._back.pack(*[0.0] * (count - 1), 3.0))
-
-    def __enter__(self) -> Hotint:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
 
 
 def connect(

@@ -6,15 +6,13 @@ from collections.abc import Mapping
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from hydrodae.case.bodies import bodies_and_attachments
+from hydrodae.hdb.labels import DOFS
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 Table = Mapping[str, Any]
-
-DOFS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 
 
 class AtRest(Protocol):

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.linalg import null_space
 
 from hydrodae import _core
-from hydrodae.case.case import CaseLike
+from hydrodae.case.case import CaseLike, read_case
 from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.database import HydroDatabase
@@ -31,9 +31,7 @@ from hydrodae.linear.response import (
 from hydrodae.linear.rotary import RotaryTakeOff, rotary_take_offs
 from hydrodae.linear.sea import in_waves, wave_components
 from hydrodae.linear.tables import WaterTables
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from hydrodae.support.arrays import Array, Complex
 
 
 class LinearModel:
@@ -73,6 +71,17 @@ class LinearModel:
         n = len(self.coordinates)
         self._free: Array = null_space(self.constraints) if len(self.constraints) else np.eye(n)
         self._constraints_inverse: Array = np.linalg.pinv(self.constraints.T)
+
+    @classmethod
+    def of(
+        cls, case: CaseLike | LinearModel, values: Mapping[str, Any] | None = None
+    ) -> LinearModel:
+        """Return a model as it is, or that of a case with `values` by dotted key replaced."""
+        if not isinstance(case, LinearModel):
+            return cls(read_case(case, values))
+        if values:
+            raise TypeError("`set` needs a case: the model was linearised without it")
+        return case
 
     @cached_property
     def database(self) -> HydroDatabase | None:
@@ -119,10 +128,6 @@ class LinearModel:
         """Return the same linearised case, in the same pose, without some forces along joints.
 
         Their springs, dampers and states are gone; what they hold the device with at rest stays.
-
-        Parameters
-        ----------
-        names : sequence of str
         """
         m = self._model
         states = [k for k, owner in enumerate(m["state_of"]) if owner in names]

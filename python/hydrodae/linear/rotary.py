@@ -7,11 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.linear.bodies import AtRest, Bodies
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array, Complex
 
 
 @dataclass(frozen=True)
@@ -31,7 +29,7 @@ class RotaryTakeOff:
     map: Array
     damping: Array
 
-    def power(self, omega: Array, xi: NDArray[np.complex128]) -> Array:
+    def power(self, omega: Array, xi: Complex) -> Array:
         """Mean power w^2 sum of C |W xi|^2 / 2, (nw,), of phasors xi (nw, n_u)."""
         return np.asarray(0.5 * omega**2 * (np.abs(xi @ self.map.T) ** 2 @ self.damping))
 

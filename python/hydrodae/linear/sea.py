@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.case import Case
 from hydrodae.errors import CaseError
 from hydrodae.linear.response import Response
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 def wave_components(case: Case) -> Array:

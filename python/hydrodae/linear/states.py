@@ -11,13 +11,11 @@ The eigenvalues show whether a device that is left alone comes to rest.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.memory import ExponentialMemory
 from hydrodae.linear import LinearModel
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 def state_matrix(model: LinearModel, memory: ExponentialMemory) -> Array:

@@ -5,15 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import null_space
 
 from hydrodae.linear.model import LinearModel
 from hydrodae.linear.response import power_factor
 from hydrodae.linear.sea import wave_components
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from hydrodae.support.arrays import Array, Complex
 
 
 @dataclass(frozen=True)

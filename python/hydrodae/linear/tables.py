@@ -13,10 +13,9 @@ from scipy.interpolate import CubicSpline
 from hydrodae import _core
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.labels import read_labels
 from hydrodae.hdb.relations.dispersion import wavenumber
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from hydrodae.support.arrays import Array, Complex
 
 
 class WaterTables:
@@ -110,8 +109,8 @@ class WaterTables:
 
     def _points(self, of: Callable[[HydroDatabase, str], Array]) -> Array:
         """A point of the body of each label, (m, 3) [m]."""
-        labels = self._model["hydro_labels"]
-        return np.array([of(self.database, label.rpartition(".")[0]) for label in labels])
+        labels = read_labels(self._model["hydro_labels"])
+        return np.array([of(self.database, label.body) for label in labels])
 
     @cached_property
     def _waves(self) -> tuple[Array, Complex]:

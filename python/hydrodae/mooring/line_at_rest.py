@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae import _core
+from hydrodae.support.arrays import Array
 
 
 @dataclass(frozen=True)
@@ -36,15 +36,15 @@ class Catenary:
     tension: float
     tension_anchor: float
     on_seabed: float
-    stiffness: NDArray[np.float64]
+    stiffness: Array
     out_of_plane: float
-    s: NDArray[np.float64]
-    x: NDArray[np.float64]
-    z: NDArray[np.float64]
-    tension_along: NDArray[np.float64]
+    s: Array
+    x: Array
+    z: Array
+    tension_along: Array
 
     @property
-    def stiffness_xyz(self) -> NDArray[np.float64]:
+    def stiffness_xyz(self) -> Array:
         """Stiffness (3, 3) of the fairlead: away from the anchor, across, upwards [N/m]."""
         out = np.zeros((3, 3))
         out[np.ix_([0, 2], [0, 2])] = self.stiffness

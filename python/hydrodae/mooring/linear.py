@@ -7,14 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.case.case import CaseLike, to_toml
 from hydrodae.errors import CaseError
 from hydrodae.linear import LinearModel
 from hydrodae.mooring.stiffness import Hold, holds, mooring_stiffness, turn_by_vector
-
-Array = NDArray[np.float64]
 
 #: Springs may be power take-offs: they are linearised only if they are named.
 _ASKED_FOR = ("spring_damper",)
@@ -107,10 +104,7 @@ def linearise(
         if any(h.held == [body] for h in single)
     ]
     return LinearMooring(
-        model.case.title,
-        tables,
-        tuple(h.name for h in single),
-        tuple(_reason(h) for h in joins),
+        model.case.title, tables, tuple(h.name for h in single), tuple(_reason(h) for h in joins)
     )
 
 

@@ -8,7 +8,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.mooring.imported import Imported
@@ -17,8 +16,7 @@ from hydrodae.mooring.moordyn_chains import Chain, find_chains
 from hydrodae.mooring.moordyn_deck import Deck, Line, Point, read_deck
 from hydrodae.mooring.moordyn_lines import CARRIED, is_zero, line_keys, lost_of
 from hydrodae.mooring.moordyn_places import COUPLED, Places, poses
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 _CARRIED = ("g", "rho", "wtrdpth", "frictioncoefficient")
 

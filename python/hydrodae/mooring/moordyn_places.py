@@ -6,12 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.mooring.moordyn_deck import Deck, Point
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: What --body and --at say of coupled points.
 COUPLED = ""
 _OF_VESSEL = ("coupled",)

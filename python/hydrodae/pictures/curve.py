@@ -6,10 +6,10 @@ import os
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.records.table import read_table
+from hydrodae.support.arrays import Array
 
 
 @dataclass(frozen=True)
@@ -28,10 +28,10 @@ class Curve:
     """
 
     label: str
-    time: NDArray[np.float64]
-    values: NDArray[np.float64]
+    time: Array
+    values: Array
     points: bool = False
-    spread: NDArray[np.float64] | None = None
+    spread: Array | None = None
 
     def until(self, end_time: float) -> Curve:
         """Return the part up to `end_time` [s]."""

@@ -7,11 +7,11 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.pictures.target import target_of
 from hydrodae.results.series import FEWEST, spectral_density
+from hydrodae.support.arrays import Array
 from hydrodae.support.units import displayed
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ class Line:
     label: str
     quantity: str
     unit: str
-    values: NDArray[np.float64]
+    values: Array
     level: float | None = None  #: drawn dashed beside the line, such as its mean
 
     @property
@@ -48,9 +48,9 @@ class Panel:
     unit: str
     lines: list[Line] = field(default_factory=list)
     note: str = ""
-    omega: NDArray[np.float64] | None = None  #: rad/s, of spectra; else the lines are over time
+    omega: Array | None = None  #: rad/s, of spectra; else the lines are over time
     decades: bool = False  #: whether the values are drawn on a logarithmic axis
-    target: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
+    target: tuple[Array, Array] | None = None
     """Frequencies [rad/s] and densities of the sea that the case asks for."""
 
     @property

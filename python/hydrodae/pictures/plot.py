@@ -30,12 +30,12 @@ from hydrodae.pictures.panels import (
     spectra,
 )
 from hydrodae.support import outputs
+from hydrodae.support.arrays import Array
 from hydrodae.support.style import COLORS as COLORS
 from hydrodae.support.style import STYLE as STYLE
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from numpy.typing import NDArray
 
     from hydrodae.results import Results
 
@@ -140,12 +140,7 @@ def draw_comparison(
 
 
 def new_figure(
-    results: Results,
-    rows: int,
-    *,
-    width: float = 8.0,
-    row_height: float = 2.1,
-    spectra: int = 0,
+    results: Results, rows: int, *, width: float = 8.0, row_height: float = 2.1, spectra: int = 0
 ) -> tuple[Figure, list[Axes]]:
     """Make a figure of `rows` panels over one time axis, titled after the run.
 
@@ -211,7 +206,7 @@ def _draw(results: Results, panels: list[Panel]) -> Figure:
     return figure
 
 
-def _draw_panel(axes: Axes, panel: Panel, at: NDArray[np.float64]) -> None:
+def _draw_panel(axes: Axes, panel: Panel, at: Array) -> None:
     for k, line in enumerate(panel.lines):
         below = sum(_falls_on(line, other) for other in panel.lines[:k])
         style = (0.0, (5.0, 5.0 * below)) if below else "-"

@@ -7,12 +7,10 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.case.contents import tables_of
 from hydrodae.results import Results
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 #: Types of waves with a target; not regular and measured waves.
 _TYPES = ("jonswap", "bretschneider", "pierson_moskowitz", "ochi_hubble", "table")

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 #: Steps of the clock may differ from their median by this part of it; a longer one is a gap.
 LIMIT = 0.5

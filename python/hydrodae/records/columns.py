@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-import numpy as np
-from numpy.typing import NDArray
+from hydrodae.support.arrays import Array
 
 
 @dataclass(frozen=True)
@@ -13,7 +12,7 @@ class Columns:
     """Names and (n_row, n_column) values of a table; "1", "2", ... where it is not `named`."""
 
     names: list[str]
-    values: NDArray[np.float64]
+    values: Array
     named: bool = True
     notes: list[str] = field(default_factory=list)
 

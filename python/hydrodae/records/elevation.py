@@ -8,15 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.records import clock
 from hydrodae.records.quantities import find
 from hydrodae.records.table import Table, read_table
 from hydrodae.support import outputs
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 #: Fewest samples, as in a run.
 FEWEST = 8

@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.records.table import Table
 from hydrodae.records.units import bare, bracketed
+from hydrodae.support.arrays import Array
 
 #: Names by quantity, without units, in small letters.
 NAMES = {
@@ -37,7 +37,7 @@ def find(table: Table, quantity: str) -> int | None:
     return found[0] if len(found) == 1 else None
 
 
-def in_unit(table: Table, place: int, unit: str, default: str | None = None) -> NDArray[np.float64]:
+def in_unit(table: Table, place: int, unit: str, default: str | None = None) -> Array:
     """Values of a column in an SI unit.
 
     Parameters

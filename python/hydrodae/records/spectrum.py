@@ -10,15 +10,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import trapezoid
 
 from hydrodae.errors import CaseError
 from hydrodae.records.quantities import find, in_unit
 from hydrodae.records.table import Table, read_table
 from hydrodae.records.units import bracketed, stated_unit
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 #: Directions with less than this part of the energy are left out.
 _NOTHING = 1e-6

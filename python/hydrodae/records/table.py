@@ -9,15 +9,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import h5py
-import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.records.matlab import read_hdf5, read_matlab
 from hydrodae.records.text import read_text
 from hydrodae.records.units import split_unit, stated_unit
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 #: Columns that are listed where one is not found.
 _LISTED = 12

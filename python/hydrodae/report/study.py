@@ -25,10 +25,7 @@ from hydrodae.support.version import version
 #: What is drawn first, if it is there.
 _FIRST = ("mean_power_absorbed_mean", "mean_power_absorbed", "capture_width")
 #: What models of the motion but the time domain are called in tables.
-_LINEAR = {
-    "frequency": "frequency domain",
-    "spectral": "frequency domain, linearised in the sea",
-}
+_LINEAR = {"frequency": "frequency domain", "spectral": "frequency domain, linearised in the sea"}
 #: Cost and trust: their ranges are enough.
 _TOLD_ONLY = ("estimated_error", "steps")
 

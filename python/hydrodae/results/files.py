@@ -9,9 +9,9 @@ from typing import Any
 
 import h5py
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import HydrodaeError
+from hydrodae.support.arrays import Array
 
 
 class ResultsError(HydrodaeError):
@@ -77,7 +77,7 @@ def plain(value: Any) -> Any:
     return value.tolist() if isinstance(value, np.generic | np.ndarray) else value
 
 
-def real(values: Any) -> NDArray[np.float64]:
+def real(values: Any) -> Array:
     """Values as they are written: real numbers."""
     found = np.asarray(values)
     if found.dtype.kind not in "fiu":

@@ -6,17 +6,16 @@ import glob
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from hydrodae.results import Results
+from hydrodae.support.arrays import Array
 
 if TYPE_CHECKING:
     import xarray
 
 
-def turning_points(
-    time: ArrayLike, values: ArrayLike
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def turning_points(time: ArrayLike, values: ArrayLike) -> tuple[Array, Array]:
     """Local maxima and minima of a sampled series, by the parabola through three samples.
 
     Of a run of equal samples (a series that was rounded) the middle counts as one sample. The ends

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any
 
 import h5py
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.results.files import ChannelError, ResultsError, find, identity, name_of, plain, real
 from hydrodae.results.sampling import FEWEST, PERIODS
+from hydrodae.support.arrays import Array
 from hydrodae.support.damaged import opened
 
 if TYPE_CHECKING:
@@ -56,9 +56,9 @@ class MotionError:
         Time at which the two runs are 0.05 of the motion apart, s; inf: never.
     """
 
-    time: NDArray[np.float64]
-    error: NDArray[np.float64]
-    relative: NDArray[np.float64]
+    time: Array
+    error: Array
+    relative: Array
     motion: float
     reproducible_until: float
     runs_part_at: float
@@ -130,7 +130,7 @@ class Recording(Mapping[str, "xarray.DataArray"]):
             raise ResultsError(f"{self.path}: damaged: it has no list of times")
         # A run that was killed may have died between two channels: keep the samples that all have.
         samples = min(lengths.values()) if self.status == "running" else lengths["time"]
-        self._time: NDArray[np.float64] = real(file["time"][:samples])
+        self._time: Array = real(file["time"][:samples])
         self._names = tuple(name for name in lengths if name != "time")
         self._impacts = tuple(impacts)
         self._errors = tuple(errors)
@@ -160,7 +160,7 @@ class Recording(Mapping[str, "xarray.DataArray"]):
         return [name for name in self._names if fnmatchcase(name, pattern)]
 
     @property
-    def time(self) -> NDArray[np.float64]:
+    def time(self) -> Array:
         """(n_time,) output times, s."""
         return self._time
 

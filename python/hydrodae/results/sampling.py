@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from hydrodae import _core
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 Interval = tuple[float, float]
 
 #: Spans of a record.

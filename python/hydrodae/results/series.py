@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from hydrodae.results.sampling import INTERVALS, Interval
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 #: Segments of the spectrum that the series is cut into, each overlapping half of the next.
 SEGMENTS = 4

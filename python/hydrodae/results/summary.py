@@ -13,10 +13,6 @@ from hydrodae.support.units import displayed
 def summary(results: Recording) -> str:
     """Few lines about a run: status, cost, extrema of the joint coordinates, energy balance.
 
-    Parameters
-    ----------
-    results : Results
-
     Returns
     -------
     str

@@ -7,13 +7,13 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.case import Case
 from hydrodae.case.callbacks.controllers import Controller, kernel_controllers
 from hydrodae.case.callbacks.drives import Drive, kernel_drives
 from hydrodae.case.callbacks.laws import Force, kernel_forces
 from hydrodae.case.case import read_case
+from hydrodae.support.arrays import Array
 
 if TYPE_CHECKING:
     from hydrodae._core import State
@@ -164,7 +164,7 @@ class Simulation:
         """
         self._stepper.restore(state)
 
-    def read(self, name: str) -> float | NDArray[np.float64]:
+    def read(self, name: str) -> float | Array:
         """Read a channel, or one component of it such as ``velocity.z``; the run does not notice.
 
         Returns

@@ -7,13 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.case.case import CaseLike, read_case
 from hydrodae.linear import LinearModel, Mode
 from hydrodae.mooring.stiffness import Hold, MooringStiffness, holds, mooring_stiffness
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.case import Case
 from hydrodae.case.case import CaseLike, read_case
@@ -21,6 +20,7 @@ from hydrodae.simulation import run
 from hydrodae.study.motion_rungs import MotionRung, motion_rungs
 from hydrodae.study.motion_rungs import lines as motion_lines
 from hydrodae.study.reference import Solution, default_channels, pick
+from hydrodae.support.arrays import Array
 
 RUNGS = ("none", "constant", "exponential", "convolution")
 #: Keys of [hydro] that belong to one model only.
@@ -291,7 +291,7 @@ def _kernel_error(
     return _rms((theirs - own.values)[:, k] / scale) / _rms(own.values[:, k] / scale)
 
 
-def _rms(values: NDArray[np.float64]) -> float:
+def _rms(values: Array) -> float:
     return float(np.sqrt(np.mean(values**2)))
 
 

@@ -8,7 +8,6 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.case import Case
 from hydrodae.errors import CaseError, DatabaseError
@@ -17,9 +16,7 @@ from hydrodae.linear.sea import wave_components
 from hydrodae.results.sampling import NONE, PERIODS, Interval, mean_interval, std_interval
 from hydrodae.study.reference import Solution
 from hydrodae.study.spectral import spectral
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from hydrodae.support.arrays import Array, Complex
 
 _DOFS = {
     "position.x": "surge", "position.y": "sway", "position.z": "heave",

@@ -10,12 +10,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.pictures.curve import read_curve
 from hydrodae.pictures.panels import Line, select
 from hydrodae.results import Results
+from hydrodae.support.arrays import Array
 
 #: Motion below this part of the largest coordinate is rounding.
 _AT_REST = 1e-12
@@ -34,8 +34,8 @@ class Solution:
         One a channel: m, deg, ...
     """
 
-    time: NDArray[np.float64]
-    values: NDArray[np.float64]
+    time: Array
+    values: Array
     units: tuple[str, ...]
 
     def excursions(self) -> dict[str, float]:
@@ -48,7 +48,7 @@ class Solution:
             largest[unit] = max(largest.get(unit, 0.0), reach)
         return largest
 
-    def at(self, time: NDArray[np.float64]) -> Solution:
+    def at(self, time: Array) -> Solution:
         """The solution at other times within its own [s]; by cubic spline where they differ."""
         if len(time) == len(self.time) and np.allclose(time, self.time, rtol=1e-12, atol=1e-12):
             return self
@@ -185,9 +185,7 @@ def read_file(
     return Solution(np.asarray(time), values, tuple(units))
 
 
-def _read_json(
-    path: Path, wanted: Sequence[str]
-) -> tuple[NDArray[np.float64], list[NDArray[np.float64]]]:
+def _read_json(path: Path, wanted: Sequence[str]) -> tuple[Array, list[Array]]:
     try:
         document = json.loads(path.read_text())
         header = [str(name) for name in document["columns"]]

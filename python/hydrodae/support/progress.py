@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterable
 from time import monotonic
-from types import TracebackType
 from typing import Self
 
 from rich.console import Console
@@ -30,12 +30,7 @@ class _Line:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         if self._live is not None:
             self._live.stop()
 
@@ -91,20 +86,35 @@ class ProgressLine(_Line):
 
 
 class StageLine(_Line):
-    """Callback of work in stages of unknown number: its last line of text, and the time.
+    """Callback of work in stages: a line as each begins, then its last line of text, and the time.
+
+    Parameters
+    ----------
+    title : str
+        Of the work.
+    stages : iterable of str
+        Names of the stages; any other text is shown now and then.
 
     Examples
     --------
-    >>> with StageLine("fit") as progress:
+    >>> with StageLine("fit", ["look", "search"]) as progress:
     ...     progress("12 states")  # quiet: the work is young
     """
 
+    def __init__(self, title: str, stages: Iterable[str] = ()) -> None:
+        super().__init__(title)
+        self._stages = frozenset(stages)
+
     def __call__(self, text: str) -> None:
-        """Show the stage."""
+        """Show that a stage begins, or how far it is."""
         spent = self._look()
+        line = f"{self._title}, {spent:.0f} s: {text}"
+        if text in self._stages:
+            self._last = self._now
+            self._console.print(line, markup=False, highlight=False, soft_wrap=True)
+            return
         if spent < PATIENCE:
             return
-        line = f"{self._title}, {spent:.0f} s: {text}"
         if not self._console.is_terminal:
             self._print_seldom(line)
             return

@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.case.bodies import bodies_and_attachments
 from hydrodae.hdb.database.coordinates import check_body
@@ -15,11 +14,11 @@ from hydrodae.hdb.database.tables import Body as HydroBody
 from hydrodae.hdb.hull.freeboard import freeboard
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.hull.meshes import read_mesh, triangles_of
+from hydrodae.support.arrays import Array
 from hydrodae.viewer import shapes
 from hydrodae.viewer.source import Source
 from hydrodae.viewer.stage import Body
 
-Array = NDArray[np.float64]
 NOTHING: Array = np.empty((0, 3, 3))
 #: Diameter of drawn rods over the length of the longest one.
 SLENDER = 0.04

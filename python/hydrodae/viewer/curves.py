@@ -7,21 +7,15 @@ from fnmatch import fnmatchcase
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
+from hydrodae.support.arrays import Array
 from hydrodae.viewer.bodies import bodies_of_rope
 from hydrodae.viewer.source import Source
 from hydrodae.viewer.stage import Body, Curve
 
 #: Shown without being asked for.
-USUAL = (
-    "bodies/*/position",
-    "bodies/*/rotation",
-    "bodies/*/velocity",
-    "joints/*",
-    "sea/elevation",
-)
+USUAL = ("bodies/*/position", "bodies/*/rotation", "bodies/*/velocity", "joints/*", "sea/elevation")
 
 
 def make_curves(
@@ -63,10 +57,10 @@ _ABOUT = {"sea": ("sea",)}
 
 def _curves(
     name: str,
-    values: NDArray[np.float64],
+    values: Array,
     unit: str,
     owners: Mapping[str, tuple[str, ...]],
-    centers: Mapping[str, NDArray[np.float64]],
+    centers: Mapping[str, Array],
 ) -> Iterator[Curve]:
     kind, owner, *rest = name.split("/")
     about = _ABOUT.get(kind, (owner, *owners.get(f"{kind}/{owner}", ())))

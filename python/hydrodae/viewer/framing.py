@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.hdb.database.coordinates import nearest
+from hydrodae.support.arrays import Array
 from hydrodae.viewer.stage import Body, Stage
 
-Array = NDArray[np.float64]
 #: Lines that reach farther than this many sizes of the bodies do not widen the picture.
 FAR = 4.0
 #: Samples that are looked at to find how far bodies go.

@@ -6,15 +6,14 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.mooring import Catenary, catenary
+from hydrodae.support.arrays import Array
 from hydrodae.viewer.bodies import bodies_of_rope
 from hydrodae.viewer.source import Source
 from hydrodae.viewer.stage import Body, Line
 
-Array = NDArray[np.float64]
 #: Points along a line that hangs.
 POINTS = 33
 #: Segments of a part of a dynamic line that names no number.

@@ -13,11 +13,11 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
+from hydrodae.support.arrays import Array
 from hydrodae.support.outputs import claim_folder
 from hydrodae.viewer.framing import Frame
 from hydrodae.viewer.stage import Sea, Stage
 
-Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 #: Kinds of cells of PolyData, in the order of the format.
 KINDS = ("Vertices", "Lines", "Polygons", "Strips")

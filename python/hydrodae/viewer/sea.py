@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import h5py
@@ -10,7 +10,7 @@ import numpy as np
 
 from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.viewer.source import Source
-from hydrodae.viewer.stage import Line, Sea
+from hydrodae.viewer.stage import Sea
 
 #: Most wave components that are drawn.
 MOST = 400
@@ -50,7 +50,7 @@ def _waves(source: Source, depth: float, gravity: float) -> tuple[np.ndarray[Any
     return np.column_stack([found[:, 0], k, found[:, 1:]]), notes
 
 
-def seabed(sea: Sea | None, tables: Mapping[str, Any], lines: Sequence[Line]) -> float | None:
+def seabed(sea: Sea | None, tables: Mapping[str, Any]) -> float | None:
     """Height of the seabed [m]: of the water, else of what lies on it; None if unknown."""
     if sea is not None and np.isfinite(sea.depth):
         return -sea.depth

@@ -6,13 +6,13 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from hydrodae.errors import CaseError
 from hydrodae.hdb.database.coordinates import nearest
 from hydrodae.hdb.hull.meshes import read_mesh, triangles_of
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Sides of what is round.
 SIDES = 32
 

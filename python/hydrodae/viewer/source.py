@@ -17,8 +17,7 @@ from hydrodae.case.contents import overrides_of
 from hydrodae.errors import CaseError
 from hydrodae.results import Results
 from hydrodae.simulation import Simulation
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 class Source(Protocol):

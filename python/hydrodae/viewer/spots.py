@@ -6,13 +6,10 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.viewer.lines import each, places_of
 from hydrodae.viewer.source import Source
 from hydrodae.viewer.stage import Body, Line, Spot
-
-Array = NDArray[np.float64]
 
 #: Density by which what hangs on a line floats or sinks where the case names none [kg/m3].
 _WATER = 1000.0

@@ -66,7 +66,7 @@ def make_stage(
         lines=lines,
         curves=make_curves(source, tables, bodies, channels),
         sea=sea,
-        bed=seabed(sea, tables, lines),
+        bed=seabed(sea, tables),
         notes=[*notes, *missing, *hidden, *left_out],
         spots=spots,
     )

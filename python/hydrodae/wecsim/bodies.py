@@ -7,17 +7,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.hull.closed import write_stl
+from hydrodae.support.arrays import Array
 from hydrodae.wecsim.morison import members
 from hydrodae.wecsim.objects import InputFile, Item
 from hydrodae.wecsim.surface import read_surface
 from hydrodae.wecsim.text import CaseText
-
-Array = NDArray[np.float64]
 
 #: Fields of bodies that are for pictures, or that nothing here depends on.
 IDLE = {

@@ -32,11 +32,7 @@ INPUT = "wecSimInputFile.m"
 #: Coordinates of the database that move with each motion of a body.
 _KEEP = {"rigid": "all", "planar": "planar", "heave": "heave", "yaw": "yaw"}
 #: What these become by hand.
-_OTHERS = {
-    "cable": "a cable; see the force rope",
-    "wind": "wind",
-    "windTurbine": "a wind turbine",
-}
+_OTHERS = {"cable": "a cable; see the force rope", "wind": "wind", "windTurbine": "a wind turbine"}
 
 
 @dataclass
@@ -332,8 +328,7 @@ def _unused(read: InputFile) -> None:
             continue
         if item.kind == "ptoSim" and "" not in item.used:
             read.remarks.left_out(
-                read.place(item.line),
-                f"{item.title}: PTO-Sim, drives no take-off of the model",
+                read.place(item.line), f"{item.title}: PTO-Sim, drives no take-off of the model"
             )
             continue
         for field, entry in item.entries.items():

@@ -6,8 +6,8 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hydrodae.support.arrays import Array
 from hydrodae.wecsim.bodies import Bodies
 from hydrodae.wecsim.m_text import NotEvaluated
 from hydrodae.wecsim.objects import InputFile, Item
@@ -17,8 +17,6 @@ from hydrodae.wecsim.signals import Law, find_law
 from hydrodae.wecsim.stages import Stages
 from hydrodae.wecsim.text import CaseText
 from hydrodae.wecsim.topology import Link, Topology, plain_name, unique
-
-Array = NDArray[np.float64]
 
 _TYPES = {
     "Rotational": "revolute",

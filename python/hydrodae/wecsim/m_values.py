@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Any, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hydrodae.support.arrays import Array
 from hydrodae.wecsim.m_text import NotEvaluated, Quoted, Token
 
 #: A number or an array of them (two axes), a string, or a list (of a cell array).
-Value: TypeAlias = "float | str | NDArray[np.float64] | list[Any]"
+Value: TypeAlias = "float | str | Array | list[Any]"
 
 _CONSTANTS = {
     "pi": math.pi,
@@ -344,6 +344,3 @@ def _function(name: str, values: list[Any]) -> Any:
     if name == "struct" and len(values) % 2 == 0:
         raise NotEvaluated("a struct of pairs")
     raise NotEvaluated(f"{name} is not known here")
-
-
-Names: TypeAlias = Mapping[str, Any]

@@ -6,7 +6,6 @@ import re
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.mooring import read_moordyn
@@ -17,16 +16,9 @@ from hydrodae.wecsim.slx import Block
 from hydrodae.wecsim.text import CaseText
 from hydrodae.wecsim.topology import plain_name
 
-Array = NDArray[np.float64]
-
 
 def add_mooring(
-    text: CaseText,
-    block: Block,
-    place: str,
-    body: int | None,
-    bodies: Bodies,
-    read: InputFile,
+    text: CaseText, block: Block, place: str, body: int | None, bodies: Bodies, read: InputFile
 ) -> None:
     """Add the forces of a mooring block; what is not read goes to the remarks."""
     match = re.search(r"mooring\((\d+)\)", block.parameters.get("mooring", "mooring(1)"))

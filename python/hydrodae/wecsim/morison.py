@@ -6,9 +6,8 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 #: Length of a member that stands for the load along one axis [m]; its load does not depend on it.
 _SHORT = 1e-3

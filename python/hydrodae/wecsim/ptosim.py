@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hydrodae.support.arrays import Array
 from hydrodae.wecsim.m_text import NotEvaluated
 from hydrodae.wecsim.objects import InputFile, Item
 from hydrodae.wecsim.ptosim_laws import Motor, linear_generator, shaft_lag, valve_curve
@@ -16,8 +16,6 @@ from hydrodae.wecsim.ptosim_trace import Chain
 from hydrodae.wecsim.signals import Law
 from hydrodae.wecsim.stages import Stages, term
 from hydrodae.wecsim.text import CaseText
-
-Array = NDArray[np.float64]
 
 #: Rate at which a rectifier changes over [m/s]: below it the piston creeps in place of resting.
 VALVE_RATE = 0.001
@@ -132,8 +130,7 @@ def _direct_drive(text: CaseText, item: Item, mount: Mount, law: Law, read: Inpu
     if not limit:
         raise NotEvaluated(f"the controller of {item.title} asks for no load")
     read.remarks.assumed(
-        read.place(item.line),
-        f"{item.title}: a limit of {limit:.4g} N m; PTO-Sim has no limit",
+        read.place(item.line), f"{item.title}: a limit of {limit:.4g} N m; PTO-Sim has no limit"
     )
     text.table(
         "[[force]]",

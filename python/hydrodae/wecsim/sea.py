@@ -7,16 +7,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.records import Table, read_components, read_elevation, read_table
+from hydrodae.support.arrays import Array
 from hydrodae.wecsim.gauges import add_gauges
 from hydrodae.wecsim.objects import InputFile, Item
 from hydrodae.wecsim.old_names import WAVES
 from hydrodae.wecsim.text import CaseText
-
-Array = NDArray[np.float64]
 
 #: Fields of simu that only steer Simulink, its files and its pictures.
 IDLE = (

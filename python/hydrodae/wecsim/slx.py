@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import zipfile
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from xml.etree import ElementTree
@@ -308,8 +307,3 @@ def _is_wecsim(mask: dict[str, str]) -> bool:
         if mask.get(key, "").startswith(f"{key}("):
             return True
     return False
-
-
-def wecsim_blocks(model: Model) -> Iterator[Block]:
-    """Blocks of the libraries of WEC-Sim."""
-    return (block for block in model.blocks if block.library.startswith("WECSim_Lib"))

@@ -5,13 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.hull.closed import closed_surface
 from hydrodae.hdb.hull.meshes import read_mesh
-
-Array = npt.NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 def read_surface(file: Path, center: Array) -> tuple[Array, str]:

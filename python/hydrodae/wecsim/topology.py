@@ -80,10 +80,6 @@ class Topology:
     moorings: list[tuple[Block, int]]
     names: dict[int, str]
 
-    def group_of(self, body: int) -> int:
-        """The group of a body."""
-        return next(key for key, group in self.groups.items() if body in group.bodies)
-
 
 def plain_name(text: str, fallback: str) -> str:
     """A name for a case file: small letters, digits and _."""

@@ -13,7 +13,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from tests.verification.truths.problem import Accuracy, Array, Problem, integrated
+from tests.verification.truths.problem import Accuracy, Problem, integrated
+
+from hydrodae.support.arrays import Array
 
 COORDINATES = ("beta", "Theta", "gamma", "Phi", "delta", "Omega", "epsilon")
 LEFT, UP, RIGHT, DOWN = np.pi, 0.5 * np.pi, 0.0, -0.5 * np.pi

@@ -15,7 +15,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from tests.verification.truths.problem import GRAVITY, Accuracy, Array, Problem, integrated
+from tests.verification.truths.problem import GRAVITY, Accuracy, Problem, integrated
+
+from hydrodae.support.arrays import Array
 
 CORNERS = np.array(
     [[0, 0, 0], [1, 0, 0], [1, -1, 0], [1, -1, 1], [0, -1, 1], [0, 0, 1]], dtype=float

@@ -13,14 +13,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from tests.verification.truths.problem import (
-    FINE,
-    GRAVITY,
-    Accuracy,
-    Array,
-    Problem,
-    integrated,
-)
+from tests.verification.truths.problem import FINE, GRAVITY, Accuracy, Problem, integrated
+
+from hydrodae.support.arrays import Array
 
 
 def pendulum(time: Array, accuracy: Accuracy) -> Array:
@@ -83,20 +78,13 @@ def door(time: Array, accuracy: Accuracy) -> Array:
     inertia = mass * ((width**2 + thickness**2) / 12.0 + (0.5 * width) ** 2)
     moment = mass * GRAVITY * np.sin(np.radians(20.0)) * 0.5 * width
     angle = integrated(
-        lambda _t, s: [s[1], -moment / inertia * np.sin(s[0])],
-        [0.5 * np.pi, 0.0],
-        time,
-        accuracy,
+        lambda _t, s: [s[1], -moment / inertia * np.sin(s[0])], [0.5 * np.pi, 0.0], time, accuracy
     )[0]
     return np.asarray(angle[:, None])
 
 
 def links(
-    masses: Sequence[float],
-    length: float,
-    start: float,
-    time: Array,
-    accuracy: Accuracy,
+    masses: Sequence[float], length: float, start: float, time: Array, accuracy: Accuracy
 ) -> Array:
     """(nt, n, 2) points of a chain of massless links, at rest, all angles from below at `start`.
 

@@ -6,9 +6,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
+
 Rates = Callable[[float, Array], ArrayLike]
 
 GRAVITY = 9.81  # m/s2

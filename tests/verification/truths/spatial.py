@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from tests.verification.truths.problem import GRAVITY, Accuracy, Array, Problem, integrated
+from tests.verification.truths.problem import GRAVITY, Accuracy, Problem, integrated
+
+from hydrodae.support.arrays import Array
 
 
 def fast_rotor(time: Array, accuracy: Accuracy) -> Array:
@@ -54,12 +56,7 @@ def tumbling_body(time: Array, accuracy: Accuracy) -> Array:
 
 PROBLEMS = {
     "fast_rotor": Problem(
-        "DOP853, axis and angular momentum",
-        ("comx", "comy", "comz"),
-        1.0,
-        0.005,
-        fast_rotor,
-        1e-10,
+        "DOP853, axis and angular momentum", ("comx", "comy", "comz"), 1.0, 0.005, fast_rotor, 1e-10
     ),
     "tumbling_body": Problem(
         "DOP853, body rates and rotation matrix",

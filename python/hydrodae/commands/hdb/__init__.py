@@ -58,11 +58,6 @@ def run(args: argparse.Namespace) -> int:
     -------
     int
         0 done, 2 the checks found an error and nothing was written.
-
-    Raises
-    ------
-    HydrodaeError
-        Bad arguments or data.
     """
     if args.hdb_action not in _OTHERS and args.output is not None:
         outputs.spare(args.output, outputs.DATABASE)  # before work that may be long

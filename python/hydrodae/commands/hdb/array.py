@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
-
-import numpy as np
 
 from hydrodae.commands.arguments import parse_headings, parse_numbers
+from hydrodae.commands.hdb.options import BAD_DATA, add_grid_options, omega_of, refused, write
 from hydrodae.errors import CaseError
 from hydrodae.hdb.database.coordinates import body_name
 from hydrodae.hdb.interaction.cylinder import Cylinder
 from hydrodae.hdb.preparation.cylinder_array import Water, cylinders
 from hydrodae.support.progress import ProgressLine
-
-DONE, BAD_DATA = 0, 2
 
 
 def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -43,15 +39,8 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         type=float,
         help="height of the reference points [m] (default: half of the draught below the surface)",
     )
-    array.add_argument(
-        "--omega", metavar="LO,HI,N", required=True, help="frequencies [rad/s]; infinity is added"
-    )
-    array.add_argument(
-        "--heading-deg", metavar="A,B,...", default="0", help="directions of travel (default: 0)"
-    )
+    add_grid_options(array)
     array.add_argument("--depth", metavar="H", type=float, required=True, help="finite [m]")
-    array.add_argument("--rho", metavar="R", type=float, default=1025.0, help="default: 1025")
-    array.add_argument("--gravity", metavar="G", type=float, default=9.81, help="default: 9.81")
     array.add_argument(
         "--orders",
         metavar="N",
@@ -65,7 +54,6 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         type=int,
         help="vertical eigenfunctions (default: 18 over a draught, at most 600)",
     )
-    array.add_argument("-o", "--output", metavar="FILE", default="hydro.h5")
     array.add_argument(
         "--accept", action="store_true", help="write the file although a check found an error"
     )
@@ -78,17 +66,9 @@ def run(args: argparse.Namespace) -> int:
     -------
     int
         0, or 2 if a check found an error and nothing was written.
-
-    Raises
-    ------
-    HydrodaeError
-        Bad arguments, or bodies that touch each other or the seabed.
     """
-    low, high, count = parse_numbers("--omega", args.omega, 3)
-    if not (0.0 < low < high and count >= 4 and count == int(count)):
-        raise CaseError(f"--omega {args.omega!r}: expected LO,HI,N with 0 < LO < HI and N >= 4")
     water = Water(
-        omega=np.linspace(low, high, int(count)),
+        omega=omega_of(args),
         depth=args.depth,
         heading=parse_headings("--heading-deg", args.heading_deg),
         rho=args.rho,
@@ -104,12 +84,9 @@ def run(args: argparse.Namespace) -> int:
         )
     print(database.summary())
     print(report)
-    if not report.ok and not args.accept:
-        print(f"{args.output} not written: a check found an error (--accept writes it anyway)")
+    if refused([] if args.accept else report.of("error"), args.output, "--accept"):
         return BAD_DATA
-    database.write(args.output)
-    print(f"written: {args.output} ({Path(args.output).stat().st_size / 1e6:.2f} MB)")
-    return DONE
+    return write(database, args.output)
 
 
 def _places(texts: list[str]) -> dict[str, list[float]]:

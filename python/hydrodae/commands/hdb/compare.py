@@ -25,13 +25,7 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def run(args: argparse.Namespace) -> int:
-    """Print the comparison; returns 0.
-
-    Raises
-    ------
-    HydrodaeError
-        Bad data, or nothing in common.
-    """
+    """Print the comparison; returns 0."""
     a = read(args.database, rho=args.rho)
     if args.other is not None:
         b = read(args.other, rho=args.rho)

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import argparse
-import sys
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
-from time import monotonic
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from hydrodae.commands.arguments import parse_headings, parse_numbers, parse_point
+from hydrodae.commands.hdb.options import BAD_DATA, DONE, add_grid_options, omega_of, refused, write
+from hydrodae.commands.options import add_quiet
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.bem import run as bem
 from hydrodae.hdb.bem import shapes
@@ -21,15 +21,10 @@ from hydrodae.hdb.bem.cutting import immersed
 from hydrodae.hdb.bem.revolution import read_profile, revolution
 from hydrodae.hdb.database.coordinates import body_name, check_body
 from hydrodae.hdb.hull.meshes import mirrored, read_mesh
-from hydrodae.hdb.preparation.computing import hydrostatics_of
-from hydrodae.hdb.preparation.importing import import_database
+from hydrodae.hdb.preparation import computing, pipeline
 from hydrodae.hdb.relations.dispersion import wavenumber
-
-Array = NDArray[np.float64]
-
-DONE, BAD_DATA = 0, 2
-#: Wall time between two lines of progress [s].
-INTERVAL = 5.0
+from hydrodae.support.arrays import Array
+from hydrodae.support.progress import StageLine
 
 
 def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -61,15 +56,8 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         default=[],
         help="reference point of every body, its centre of gravity at rest [m]",
     )
-    compute.add_argument(
-        "--omega", metavar="LO,HI,N", required=True, help="frequencies [rad/s]; infinity is added"
-    )
-    compute.add_argument(
-        "--heading-deg", metavar="A,B,...", default="0", help="directions of travel (default: 0)"
-    )
+    add_grid_options(compute)
     compute.add_argument("--depth", metavar="H", type=float, default=np.inf, help="default: inf")
-    compute.add_argument("--rho", metavar="R", type=float, default=1025.0, help="default: 1025")
-    compute.add_argument("--gravity", metavar="G", type=float, default=9.81, help="default: 9.81")
     compute.add_argument(
         "--panel",
         metavar="SIZE",
@@ -87,11 +75,10 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "roll_deg, pitch_deg, yaw_deg about --cog. Writes FILE with the number of the pose in its "
         "name for each, and prints the table",
     )
-    compute.add_argument("-o", "--output", metavar="FILE", default="hydro.h5")
     compute.add_argument(
         "--work", metavar="FOLDER", help="where finished frequencies are kept (default: FILE.bem)"
     )
-    compute.add_argument("-q", "--quiet", action="store_true", help="no progress")
+    add_quiet(compute)
     compute.add_argument(
         "--kochin",
         metavar="N",
@@ -115,17 +102,9 @@ def run(args: argparse.Namespace) -> int:
     -------
     int
         0, or 2 if a check found an error and nothing was written.
-
-    Raises
-    ------
-    HydrodaeError
-        Bad arguments or meshes, or Capytaine is missing.
     """
-    low, high, count = parse_numbers("--omega", args.omega, 3)
-    if not (0.0 < low < high and count >= 4 and count == int(count)):
-        raise CaseError(f"--omega {args.omega!r}: expected LO,HI,N with 0 < LO < HI and N >= 4")
     settings = bem.Settings(
-        omega=np.linspace(low, high, int(count)),
+        omega=omega_of(args),
         heading=parse_headings("--heading-deg", args.heading_deg),
         rho=args.rho,
         gravity=args.gravity,
@@ -226,7 +205,7 @@ def _compute_one(
 ) -> int:
     """Compute the database of one pose and write it; the exit code."""
     bodies = [_body(text, points, args.panel, settings, pose) for text in args.body]
-    statics = hydrostatics_of(bodies)
+    statics = computing.hydrostatics_of(bodies)
     for body in bodies:
         volume = statics[body.name].displaced_volume
         print(f"{body.name}: {len(body.panels)} panels, displaces {volume:.5g} m3")
@@ -236,13 +215,14 @@ def _compute_one(
     work = Path(args.work or f"{args.output}.bem")
     if output != args.output:
         work = work / Path(output).stem
-    progress = None if args.quiet else _Progress()
-    netcdf = bem.compute(bodies, settings, work, progress=progress)
-    nan = bem.count_nan(netcdf)
-    if nan:
-        print(f"warning: NaN in the results of Capytaine: {nan}")
-    database, report = import_database(netcdf, hydrostatics=statics)
-    database = database.with_meshes({body.name: body.panels for body in bodies})
+    with StageLine("compute", pipeline.names(pipeline.COMPUTE)) as stage:
+        database, report = computing.compute(
+            bodies,
+            settings,
+            work,
+            progress=None if args.quiet else _Frequencies(stage),
+            stage=None if args.quiet else stage,
+        )
     print(database.summary())
     print(report)
     if args.no_lid and report.find("irregular frequencies"):
@@ -250,13 +230,9 @@ def _compute_one(
             "computed with --no-lid: a lid, the default, removes irregular frequencies (not the "
             "resonance of a moonpool, which asks for finer steps)"
         )
-    if left := report.left(args.accept):
-        words = " ".join(dict.fromkeys(f"--accept {finding.name}" for finding in left))
-        print(f"{output} not written: a check found an error ({words} writes it anyway)")
+    if refused(report.left(args.accept), output):
         return BAD_DATA
-    database.write(output)
-    print(f"written: {output} ({Path(output).stat().st_size / 1e6:.2f} MB)")
-    return DONE
+    return write(database, output)
 
 
 def _name_of(text: str) -> str:
@@ -319,7 +295,7 @@ def _lengths(name: str, words: dict[str, str]) -> dict[str, float]:
 
 def _panels(
     name: str, first: str, words: dict[str, str], size: float | None, settings: bem.Settings
-) -> NDArray[np.float64]:
+) -> Array:
     """Panels of a shape by formula, of a profile, or of a mesh file."""
     is_file = Path(first).is_file() or (bool(Path(first).suffix) and first not in shapes.SHAPES)
     if first == "revolution":
@@ -339,9 +315,7 @@ def _panels(
     return np.asarray(panels + _shift(name, words, "a mesh takes x, y, z, mirror and scale only"))
 
 
-def _turned(
-    name: str, words: dict[str, str], size: float | None, settings: bem.Settings
-) -> NDArray[np.float64]:
+def _turned(name: str, words: dict[str, str], size: float | None, settings: bem.Settings) -> Array:
     """Surface of revolution of the profile in a file."""
     if "profile" not in words:
         raise CaseError(f"--body {name}: revolution needs profile=FILE, points r z [m] a line")
@@ -353,7 +327,7 @@ def _turned(
     return np.asarray(revolution(size, profile) + shift)
 
 
-def _shift(name: str, words: dict[str, str], known: str) -> NDArray[np.float64]:
+def _shift(name: str, words: dict[str, str], known: str) -> Array:
     lengths = _lengths(name, words)
     shift = [lengths.pop(axis, 0.0) for axis in ("x", "y", "z")]
     if lengths:
@@ -366,31 +340,23 @@ def _size(shape: str, lengths: dict[str, float], settings: bem.Settings) -> floa
     return _panel_size(shapes.build(shape, coarse, lengths), settings)
 
 
-def _panel_size(coarse: NDArray[np.float64], settings: bem.Settings) -> float:
+def _panel_size(coarse: Array, settings: bem.Settings) -> float:
     """An eighth of the shortest wave or of the cube root of the volume, the smaller one [m]."""
     volume = shapes.hydrostatics(coarse, np.zeros(3)).displaced_volume
     k = wavenumber(settings.omega[-1:], settings.water_depth, settings.gravity)[0]
     return min(2.0 * np.pi / float(k), float(np.cbrt(volume))) / 8.0
 
 
-class _Progress:
-    """A line on stderr every few seconds, and at the end."""
+class _Frequencies:
+    """Shows how many frequencies are done, and the time that the others will take."""
 
-    def __init__(self) -> None:
-        self._last = monotonic()
+    def __init__(self, show: Callable[[str], None]) -> None:
+        self._show = show
         self._before: int | None = None
 
     def __call__(self, done: int, total: int, omega: float, spent: float) -> None:
         if self._before is None:
-            self._before = done - 1
-        now = monotonic()
-        if now - self._last < INTERVAL and done < total:
-            return
-        self._last = now
+            self._before = done - 1  # of an earlier run
         left = spent / (done - self._before) * (total - done)
-        print(
-            f"{done} of {total} frequencies, w = {omega:.4g} rad/s, {spent:.0f} s, "
-            f"about {left:.0f} s to go",
-            file=sys.stderr,
-            flush=True,
-        )
+        at = f"{done} of {total} frequencies, w = {omega:.4g} rad/s"
+        self._show(f"{at}, about {left:.0f} s to go")

@@ -8,7 +8,8 @@ from pathlib import Path
 
 from hydrodae.commands.arguments import parse_band, parse_point
 from hydrodae.commands.hdb.options import add_water_options, water_of
-from hydrodae.commands.machine import add_json, of_database, print_json
+from hydrodae.commands.machine import of_database, print_json
+from hydrodae.commands.options import add_json
 from hydrodae.errors import CaseError
 from hydrodae.hdb.checks.check import check
 from hydrodae.hdb.checks.examination import examination
@@ -67,11 +68,6 @@ def run(args: argparse.Namespace) -> int:
     -------
     int
         0, or 2 if a check found an error (after repairs, if there were any).
-
-    Raises
-    ------
-    HydrodaeError
-        Bad arguments or data.
     """
     if (args.repair is None) != (args.output is None):
         raise CaseError("--repair and -o belong together: what to repair, and where to write it")

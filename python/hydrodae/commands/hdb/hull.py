@@ -11,8 +11,9 @@ from hydrodae.commands.arguments import parse_numbers
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.coordinates import check_body
-from hydrodae.hdb.hull.closed import Array, closed_surface, enclosed_volume, write_stl
+from hydrodae.hdb.hull.closed import closed_surface, enclosed_volume, write_stl
 from hydrodae.hdb.hull.meshes import read_mesh
+from hydrodae.support.arrays import Array
 
 
 def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -45,13 +46,7 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def run(args: argparse.Namespace) -> int:
-    """Write the surface; returns 0.
-
-    Raises
-    ------
-    HydrodaeError
-        Bad arguments, or a surface that cannot be closed.
-    """
+    """Write the surface; returns 0."""
     if Path(args.output).suffix.lower() != ".stl":
         raise CaseError(f"-o {args.output!r}: expected a name that ends in .stl")
     if args.freeboard is not None and not args.freeboard > 0.0:

@@ -4,26 +4,28 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
-from pathlib import Path
 
 from hydrodae.commands.arguments import parse_band, parse_file, parse_point
 from hydrodae.commands.hdb.options import (
+    BAD_DATA,
     add_fit_options,
     add_length_option,
     add_water_options,
+    refused,
     water_of,
     with_fits,
     with_kernel,
+    write,
 )
 from hydrodae.errors import CaseError
 from hydrodae.hdb.checks.band import Band
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.memory.verdict import CHECKS
+from hydrodae.hdb.preparation import pipeline
 from hydrodae.hdb.preparation.importing import import_database
 from hydrodae.hdb.readers.formats import expected_files
 from hydrodae.study.band import working_band
-
-DONE, BAD_DATA = 0, 2
+from hydrodae.support.progress import StageLine
 
 
 def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -157,33 +159,30 @@ def _volume(text: str) -> tuple[str, float]:
 def run(args: argparse.Namespace) -> int:
     """Import a source; returns 2 if a check found an error and nothing was written, else 0."""
     names = None if args.bodies is None else [n.strip() for n in args.bodies.split(",")]
-    database, report = import_database(
-        args.source,
-        names=names,
-        reference_points=dict(parse_point("--cog", text, alone=True) for text in args.cog),
-        source_points=dict(parse_point("--origin", text, alone=True) for text in args.origin),
-        meshes=dict(parse_file("--mesh", text, alone=True) for text in args.mesh),
-        stiffness=dict(parse_file("--stiffness", text, alone=True) for text in args.stiffness),
-        volumes=dict(_volume(text) for text in args.volume),
-        **water_of(args),
-        time_convention=args.time_convention,
-        keep=args.keep,
-        cut=args.cut,
-        symmetric=None if args.symmetric is None else args.symmetric.split(","),
-        band=_band(args),
-    )
+    with StageLine("import", pipeline.names(pipeline.IMPORT)) as progress:
+        database, report = import_database(
+            args.source,
+            names=names,
+            reference_points=dict(parse_point("--cog", text, alone=True) for text in args.cog),
+            source_points=dict(parse_point("--origin", text, alone=True) for text in args.origin),
+            meshes=dict(parse_file("--mesh", text, alone=True) for text in args.mesh),
+            stiffness=dict(parse_file("--stiffness", text, alone=True) for text in args.stiffness),
+            volumes=dict(_volume(text) for text in args.volume),
+            **water_of(args),
+            time_convention=args.time_convention,
+            keep=args.keep,
+            cut=args.cut,
+            symmetric=None if args.symmetric is None else args.symmetric.split(","),
+            band=_band(args),
+            progress=progress,
+        )
     if args.no_coupling:
         database = database.without_coupling()
     print(database.summary())
     print(report)
-    left = report.left([name for name in args.accept if name not in CHECKS])
-    if left:
-        words = " ".join(dict.fromkeys(f"--accept {finding.name}" for finding in left))
-        print(f"{args.output} not written: a check found an error ({words} writes it anyway)")
+    if refused(report.left([name for name in args.accept if name not in CHECKS]), args.output):
         return BAD_DATA
     if args.kernel is not None:
         database = with_kernel(database, args.kernel, args)
     database = with_fits(database, args.fit, args)
-    database.write(args.output, single=args.single)
-    print(f"written: {args.output} ({Path(args.output).stat().st_size / 1e6:.2f} MB)")
-    return DONE
+    return write(database, args.output, single=args.single)

@@ -4,12 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from hydrodae.commands.hdb.options import (
-    add_fit_options,
-    add_length_option,
-    with_fits,
-    with_kernel,
-)
+from hydrodae.commands.hdb.options import add_fit_options, add_length_option, with_fits, with_kernel
 from hydrodae.hdb.database import HydroDatabase, files
 from hydrodae.hdb.memory.verdict import CHECKS
 

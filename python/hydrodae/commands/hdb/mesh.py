@@ -14,6 +14,7 @@ from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.coordinates import check_body
 from hydrodae.hdb.database.files import is_single
 from hydrodae.hdb.hull.meshes import read_mesh
+from hydrodae.support.arrays import Array
 
 #: Panels along the longest side of a simple shape: fine enough for a picture.
 PANELS = 24
@@ -41,13 +42,7 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def run(args: argparse.Namespace) -> int:
-    """Write the database with the surfaces; returns 0.
-
-    Raises
-    ------
-    HydrodaeError
-        Bad arguments or meshes, or an unknown body.
-    """
+    """Write the database with the surfaces; returns 0."""
     database = HydroDatabase.read(args.database)
     panels = dict(_surface(text) for text in args.body)
     for name in panels:
@@ -59,7 +54,7 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def _surface(text: str) -> tuple[str, shapes.Array]:
+def _surface(text: str) -> tuple[str, Array]:
     """Read NAME=SHAPE:key=value... or NAME=FILE[:x=..:y=..:z=..]."""
     name, equals, what = text.partition("=")
     if not equals or not what:

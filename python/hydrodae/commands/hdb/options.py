@@ -3,17 +3,26 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
+from pathlib import Path
 from typing import TypedDict
 
-from hydrodae.commands.arguments import parse_band
+import numpy as np
+
+from hydrodae.commands.arguments import parse_band, parse_numbers
 from hydrodae.errors import CaseError
 from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.radiation_kernel import LIMIT
 from hydrodae.hdb.database.summary import fit_summary, kernel_summary
 from hydrodae.hdb.memory.verdict import CHECKS
 from hydrodae.hdb.preparation import fitting as prepare
+from hydrodae.hdb.preparation import pipeline
 from hydrodae.study.band import working_band
+from hydrodae.support.arrays import Array
 from hydrodae.support.progress import StageLine
+
+DONE, BAD_DATA = 0, 2
 
 
 def add_water_options(parser: argparse.ArgumentParser) -> None:
@@ -30,6 +39,49 @@ def add_water_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--gravity", metavar="G", type=float, help="[m/s2], where the source does not say"
     )
+
+
+def add_grid_options(parser: argparse.ArgumentParser) -> None:
+    """Add what a computation needs besides the bodies and the depth, and where it writes."""
+    parser.add_argument(
+        "--omega", metavar="LO,HI,N", required=True, help="frequencies [rad/s]; infinity is added"
+    )
+    parser.add_argument(
+        "--heading-deg", metavar="A,B,...", default="0", help="directions of travel (default: 0)"
+    )
+    parser.add_argument("--rho", metavar="R", type=float, default=1025.0, help="default: 1025")
+    parser.add_argument("--gravity", metavar="G", type=float, default=9.81, help="default: 9.81")
+    parser.add_argument("-o", "--output", metavar="FILE", default="hydro.h5")
+
+
+def omega_of(args: argparse.Namespace) -> Array:
+    """Return the frequencies of --omega [rad/s].
+
+    Raises
+    ------
+    CaseError
+        They are not LO,HI,N.
+    """
+    low, high, count = parse_numbers("--omega", args.omega, 3)
+    if not (0.0 < low < high and count >= 4 and count == int(count)):
+        raise CaseError(f"--omega {args.omega!r}: expected LO,HI,N with 0 < LO < HI and N >= 4")
+    return np.linspace(low, high, int(count))
+
+
+def refused(errors: Sequence[Finding], output: str, option: str = "") -> bool:
+    """Print that nothing is written where errors are left, and the option that accepts them."""
+    if not errors:
+        return False
+    words = option or " ".join(dict.fromkeys(f"--accept {error.name}" for error in errors))
+    print(f"{output} not written: a check found an error ({words} writes it anyway)")
+    return True
+
+
+def write(database: HydroDatabase, output: str, *, single: bool = False) -> int:
+    """Write a database and print where; returns 0."""
+    database.write(output, single=single)
+    print(f"written: {output} ({Path(output).stat().st_size / 1e6:.2f} MB)")
+    return DONE
 
 
 class WaterWords(TypedDict):
@@ -128,11 +180,12 @@ def with_fits(database: HydroDatabase, specs: list[str], args: argparse.Namespac
         print(f"band {band[0]:.3g} to {band[1]:.3g} rad/s, from {args.case}")
     if args.target is not None and not args.target > 0.0:
         raise CaseError(f"--target {args.target:g}: expected a number > 0")
+    stages = pipeline.names(pipeline.FIT)
     for spec in specs:
         name, equals, text = spec.partition("=")
         if not equals or not prepare.is_fit_name(name):
             raise CaseError(f"fit {spec!r}: expected NAME=SPEC, e.g. flaps=flap1.pitch,flap2.pitch")
-        with StageLine(f"fit {name}") as progress:
+        with StageLine(f"fit {name}", stages) as progress:
             database = prepare.fit(
                 database,
                 text,

@@ -5,14 +5,12 @@ from __future__ import annotations
 import argparse
 
 import numpy as np
-from numpy.typing import NDArray
 
-from hydrodae.commands.arguments import given_case, heading_deg
+from hydrodae.commands.arguments import given_case, heading_deg, parse_positive
+from hydrodae.commands.options import add_case
 from hydrodae.errors import CaseError
 from hydrodae.study.sensitivity import sensitivity
 from hydrodae.study.sensitivity.output import table, write
-
-Array = NDArray[np.float64]
 
 
 def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -24,10 +22,8 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "variants of its database. They have a coarser or shorter table, a shorter or fitted "
         "memory, or bodies without coupling.",
     )
-    parser.add_argument("case", metavar="CASE", help="case file (TOML)")
+    add_case(parser)
     parser.add_argument("--result", choices=("period", "rao", "power"), required=True)
-    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
-    parser.add_argument("--library", metavar="FILE", action="append", default=[], help="as in run")
     parser.add_argument("--periods", metavar="T1,T2,...", help="of --result rao [s]")
     parser.add_argument(
         "--channel",
@@ -47,39 +43,23 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def run(args: argparse.Namespace) -> int:
-    """Print the table; returns 0.
-
-    Raises
-    ------
-    HydrodaeError
-        Bad arguments or data.
-    """
+    """Print the table; returns 0."""
     case = given_case(args)
-    band = None if args.band is None else _numbers("--band", args.band)
-    if band is not None and band.size != 2:
+    band = args.band and parse_positive("--band", args.band)
+    if band is not None and len(band) != 2:
         raise CaseError(f"--band {args.band!r}: expected LO,HI")
-    states = [] if args.states is None else _numbers("--states", args.states).astype(int).tolist()
+    states = [] if args.states is None else parse_positive("--states", args.states)
     rows = sensitivity(
         case,
         args.result,
-        periods=[] if args.periods is None else _numbers("--periods", args.periods).tolist(),
+        periods=[] if args.periods is None else parse_positive("--periods", args.periods),
         channels=args.channel,
         heading=float(np.radians(args.heading)),
-        states=states,
-        band=band,
+        states=list(map(int, states)),
+        band=None if band is None else np.array(band),
     )
     print(table(case.title, rows))
     if args.output:
         for path in write(args.output, case.title, rows):
             print(f"written: {path}")
     return 0
-
-
-def _numbers(option: str, text: str) -> Array:
-    try:
-        values = np.array([float(v) for v in text.split(",")])
-    except ValueError:
-        values = np.zeros(1)
-    if not np.all(np.isfinite(values)) or not np.all(values > 0.0):
-        raise CaseError(f"{option} {text!r}: expected numbers > 0 with commas")
-    return values

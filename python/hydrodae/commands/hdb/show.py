@@ -6,7 +6,8 @@ import argparse
 from pathlib import Path
 
 from hydrodae.commands.hdb.options import add_water_options, water_of
-from hydrodae.commands.machine import add_json, of_database, print_json
+from hydrodae.commands.machine import of_database, print_json
+from hydrodae.commands.options import add_json
 from hydrodae.errors import CaseError
 from hydrodae.hdb.checks.check import check
 from hydrodae.hdb.database.findings import CheckReport

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.bem.shapes import NoWaterError, hydrostatics
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 #: Corners nearer than this share of the surface's length are one.
 WELD = 1e-5

@@ -11,11 +11,9 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 def solve(

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Share of the inner water plane that a lid must cover.
 LEAST = 0.5
 #: A grid that covers more than this is good enough.

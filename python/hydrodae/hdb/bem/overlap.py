@@ -5,9 +5,9 @@ from __future__ import annotations
 from itertools import permutations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
+
 #: Points are taken so many at a time.
 CHUNK = 100
 #: Share of the full sphere that a hull fills around a point inside: 1; on the hull: 1/2.

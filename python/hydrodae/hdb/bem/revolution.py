@@ -10,11 +10,10 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from hydrodae.errors import CaseError, DatabaseError
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 def cone(

@@ -16,7 +16,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.bem.green import solve
@@ -24,10 +23,9 @@ from hydrodae.hdb.bem.lids import lid
 from hydrodae.hdb.bem.overlap import overlapping
 from hydrodae.hdb.database.shallow import SHALLOW
 from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.support.arrays import Array
 from hydrodae.support.extras import install_command
 
-Array = NDArray[np.float64]
-TABLES = ("added_mass", "radiation_damping", "diffraction_force", "Froude_Krylov_force")
 #: Panels of all bodies and lids: a full matrix of complex numbers, 16 bytes an entry.
 MOST_PANELS = 6000
 
@@ -271,14 +269,6 @@ def _collect(files: list[Path], bodies: Sequence[WettedBody], target: Path) -> P
     data.attrs[SHALLOW] = sorted(shallow)
     data.to_netcdf(target, engine="netcdf4")
     return target
-
-
-def count_nan(path: Path) -> dict[str, int]:
-    """NaN by table at finite frequencies, those with none left out."""
-    with xr.open_dataset(path, engine="netcdf4") as data:
-        usual = data.isel(omega=np.flatnonzero(np.isfinite(data["omega"].values)))
-        found = {t: int(np.isnan(usual[t].values).sum()) for t in TABLES if t in usual}
-    return {name: count for name, count in found.items() if count}
 
 
 def _key(version: str, bodies: Sequence[WettedBody], settings: Settings) -> str:

@@ -15,8 +15,8 @@ from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.bem.revolution import check_top, cone, count, positive, revolved, ring
 from hydrodae.hdb.database.coordinates import nearest
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: No hull is longer [m].
 LONGEST = 2000.0
 #: Largest difference of the volumes by the three axes of a closed surface.
@@ -66,13 +66,7 @@ def sphere(size: float, *, radius: float, x: float = 0.0, y: float = 0.0, z: flo
 
 
 def cylinder(
-    size: float,
-    *,
-    radius: float,
-    draft: float,
-    top: float = 0.0,
-    x: float = 0.0,
-    y: float = 0.0,
+    size: float, *, radius: float, draft: float, top: float = 0.0, x: float = 0.0, y: float = 0.0
 ) -> Array:
     """Vertical cylinder from z = top down to z = -draft; its polygons have the area of the circle.
 
@@ -192,10 +186,6 @@ def hydrostatics(panels: ArrayLike, point: ArrayLike) -> Hydrostatics:
         Closed below the water plane.
     point : (3,) array
         Reference point [m] of the waterplane moments.
-
-    Returns
-    -------
-    Hydrostatics
 
     Raises
     ------

@@ -16,10 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.database.coordinates import MODE, split_label
 from hydrodae.hdb.database.scales import scales
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 Band = tuple[float, float]
 #: Motion in a wind sea, over that of a float in long waves, below which nothing is felt.
 LEAST_MOTION = 0.05
@@ -35,10 +34,6 @@ LEAST_DAMPING = 0.02
 
 def felt_band(database: HydroDatabase) -> Band:
     """Return the lowest frequency and the highest one that the device feels [rad/s].
-
-    Parameters
-    ----------
-    database : HydroDatabase
 
     Returns
     -------
@@ -82,25 +77,26 @@ def _motion(db: HydroDatabase) -> Array:
     added = np.abs(np.diag(db.added_mass_inf))
     columns = []
     active = scales(db) > 0.0
-    for i, label in enumerate(db.coordinates):
-        body, dof = split_label(label)
-        if dof == MODE or not active[i] or added[i] <= 0.0 or not force[:, i].any():
+    for i, label in enumerate(db.labels):
+        if label.is_mode or not active[i] or added[i] <= 0.0 or not force[:, i].any():
             continue
-        hs = db.bodies[body].hydrostatics
-        known = hs is not None and dof < 3
+        hs = db.bodies[label.body].hydrostatics
+        known = hs is not None and label.is_translation
         mass = db.rho * hs.displaced_volume if known and hs is not None else added[i]
-        stiffness = float(force[0, i]) if dof == 2 else 0.0  # K33 is its long-wave limit
-        if known and hs is not None and dof == 2:
-            stiffness = db.rho * db.gravity * max(hs.waterplane_area, 0.0)
+        stiffness = 0.0
+        if label.motion == "heave":
+            stiffness = float(force[0, i])  # K33 is its long-wave limit
+            if hs is not None:
+                stiffness = db.rho * db.gravity * max(hs.waterplane_area, 0.0)
         length = 1.0
-        if dof >= 3:
+        if label.is_rotation:
             moving = [
                 added[j]
-                for j, other in enumerate(db.coordinates)
-                if split_label(other)[0] == body and split_label(other)[1] < 3
+                for j, other in enumerate(db.labels)
+                if other.body == label.body and other.is_translation
             ]
             length = float(np.sqrt(added[i] / max(moving))) if moving and max(moving) > 0 else 1.0
         motion = length * force[:, i] / np.maximum(stiffness, db.omega**2 * (mass + added[i]))
         # a body follows long waves: what exceeds them there is a mass taken too small
-        columns.append(motion / (max(1.0, motion[0]) if dof < 3 else 1.0))
+        columns.append(motion / (max(1.0, motion[0]) if label.is_translation else 1.0))
     return np.stack(columns, axis=1) if columns else np.zeros((db.omega.size, 0))

@@ -27,10 +27,10 @@ from hydrodae.hdb.checks.sizes import size_findings
 from hydrodae.hdb.checks.spikes import spike_findings
 from hydrodae.hdb.checks.units import unit_findings
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.database.coordinates import rigid
 from hydrodae.hdb.database.findings import CheckReport, Finding
 from hydrodae.hdb.database.kernels import diagonal_kernels, envelope_length, resolved_time
 from hydrodae.hdb.database.scales import scaled_damping_eigenvalues, scales
+from hydrodae.hdb.labels import rigid
 from hydrodae.hdb.relations import irf, tails
 
 
@@ -50,13 +50,13 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
         Of the rigid coordinates, in the order grid, headings, memory, symmetry, energy, irregular
         frequencies, garbled rows, sizes, places, causality, spikes, fits, long waves, hulls.
     """
-    modes = len(database.coordinates) - len(rigid(database.coordinates))
+    modes = sum(label.is_mode for label in database.labels)
     if modes:
         database = database.select(rigid(database.coordinates))
     judged = band or felt_band(database)
     return CheckReport(
         [
-            _judged(database, judged, given=band is not None),
+            _judged(judged, given=band is not None),
             *([] if not modes else [_unchecked(modes)]),
             *_grid(database),
             *heading_findings(database, judged),
@@ -82,7 +82,7 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
     )
 
 
-def _judged(db: HydroDatabase, band: Band, *, given: bool) -> Finding:
+def _judged(band: Band, *, given: bool) -> Finding:
     how = "as given" if given else "what the device feels of a wind sea"
     text = f"errors of A, B and F count in {band[0]:.3g}..{band[1]:.3g} rad/s, {how} (--band)"
     return Finding("info", "band", text, value=band[1])

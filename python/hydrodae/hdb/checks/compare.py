@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,12 +10,11 @@ from scipy.interpolate import CubicSpline
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.database.coordinates import split_label
 from hydrodae.hdb.database.kernels import diagonal_kernels
 from hydrodae.hdb.database.scales import scales
+from hydrodae.hdb.labels import bodies_of
 from hydrodae.hdb.relations import infinity, irf
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 @dataclass(frozen=True)
@@ -69,7 +68,7 @@ def compare(a: HydroDatabase, b: HydroDatabase) -> list[Difference]:
             f"no coordinates in common: {', '.join(a.coordinates[:4])} ... and "
             f"{', '.join(b.coordinates[:4])} ... (rename bodies with hdb import --bodies)"
         )
-    for body in {split_label(c)[0] for c in labels}:
+    for body in bodies_of(labels):
         p, q = a.bodies[body].reference_point, b.bodies[body].reference_point
         if p is not None and q is not None and not np.allclose(p, q, atol=1e-3):
             raise DatabaseError(f"the moments of {body!r} are about {p} and {q}: move one (--cog)")
@@ -109,10 +108,6 @@ def other_water(a: HydroDatabase, b: HydroDatabase) -> list[str]:
 def grid_sensitivity(database: HydroDatabase) -> list[tuple[str, float, float]]:
     """How K(t) and added_mass_inf answer to a coarser, narrower or shorter database.
 
-    Parameters
-    ----------
-    database : HydroDatabase
-
     Returns
     -------
     list of (str, float, float)
@@ -143,14 +138,7 @@ def grid_sensitivity(database: HydroDatabase) -> list[tuple[str, float, float]]:
         if keep.sum() < 8:
             rows.append((text, np.nan, np.nan))
             continue
-        part = replace(
-            database,
-            omega=w[keep],
-            added_mass=database.added_mass[keep],
-            radiation_damping=database.radiation_damping[keep],
-            froude_krylov=database.froude_krylov[keep],
-            diffraction=database.diffraction[keep],
-        )
+        part = database.at_frequencies(keep)
         b = part.radiation_damping[:, used, used]
         other = irf.radiation_kernel(part.omega, b, time, extrapolate=True)
         change = float((np.abs(other - kernel).max(axis=0) / peak).max())

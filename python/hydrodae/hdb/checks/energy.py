@@ -18,12 +18,11 @@ from numpy.typing import NDArray
 from hydrodae.hdb.checks.band import LEAST_DAMPING, Band, inside
 from hydrodae.hdb.checks.irregular import suspect_rows
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.database.coordinates import split_label
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.scales import scales
 from hydrodae.hdb.relations.dispersion import group_velocity, wavenumber
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Fewest frequencies with enough damping that a verdict rests on.
 FEWEST = 3
 #: Largest step between headings that the integral over them bears.
@@ -78,8 +77,7 @@ def energy_identity(database: HydroDatabase) -> EnergyIdentity | None:
     if not _axisymmetric(db):
         return None
     columns, terms = [], []
-    for i, label in enumerate(db.coordinates):
-        dof = split_label(label)[1]
+    for i, dof in enumerate(label.dof for label in db.labels):
         if dof == 5:
             continue
         shape = np.ones(db.heading.size)
@@ -198,9 +196,9 @@ def _extent(db: HydroDatabase) -> float:
     mass = np.abs(np.diag(db.added_mass_inf))
     radius = 0.0
     for body in db.bodies:
-        mine = [(i, split_label(c)) for i, c in enumerate(db.coordinates)]
-        turning = [mass[i] for i, (name, dof) in mine if name == body and dof >= 3]
-        going = [mass[i] for i, (name, dof) in mine if name == body and dof < 3]
+        mine = [(m, label) for m, label in zip(mass, db.labels, strict=True) if label.body == body]
+        turning = [m for m, label in mine if label.is_rotation]
+        going = [m for m, label in mine if label.is_translation]
         if turning and going and max(going) > 0.0:
             radius = max(radius, float(np.sqrt(max(turning) / max(going))))
     return float(place + 1.5 * radius)
@@ -210,7 +208,7 @@ def _symmetric_about_y(db: HydroDatabase) -> bool:
     points = [b.reference_point for b in db.bodies.values()]
     if any(p is None or abs(p[1]) > 1e-9 for p in points):
         return False
-    lateral = np.array([split_label(c)[1] in (1, 3, 5) for c in db.coordinates])
+    lateral = np.array([label.dof in (1, 3, 5) for label in db.labels])
     return _coupling(db, lateral[:, None] != lateral) < 1e-3
 
 

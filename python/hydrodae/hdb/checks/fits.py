@@ -11,10 +11,6 @@ from hydrodae.hdb.database.findings import Finding
 def fit_findings(database: HydroDatabase) -> list[Finding]:
     """Compare H(iw) = B + iw (A - A_inf) of every fit with the tables, and ask for passivity.
 
-    Parameters
-    ----------
-    database : HydroDatabase
-
     Returns
     -------
     list of Finding

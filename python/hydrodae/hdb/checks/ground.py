@@ -13,7 +13,6 @@ from dataclasses import replace
 import numpy as np
 
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.database.coordinates import split_label
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.tables import Body
 
@@ -25,10 +24,6 @@ SUBMERGED = 1e-3
 
 def standing(database: HydroDatabase) -> list[str]:
     """Return the bodies whose hull reaches the ground.
-
-    Parameters
-    ----------
-    database : HydroDatabase
 
     Returns
     -------
@@ -74,7 +69,7 @@ def of_what_moves(
     """
     found = judge(database)
     held = standing(database) if any(f.severity == "error" for f in found) else []
-    moving = [c for c in database.coordinates if split_label(c)[0] not in held]
+    moving = [str(label) for label in database.labels if label.body not in held]
     if not held or not moving:
         return found
     left = {f.check for f in judge(database.select(moving)) if f.severity == "error"}

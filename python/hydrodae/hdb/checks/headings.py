@@ -14,8 +14,8 @@ from hydrodae.hdb.checks.phase import without_phase
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.relations.headings import Headings
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Steps above which headings that cannot test themselves are warned of [rad].
 WIDE = np.radians(36.0)
 #: Share of the largest force over the headings that is a warning, and that is reported.

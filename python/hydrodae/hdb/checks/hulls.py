@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.hull.mesh_statics import mesh_statics
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Flat panels enclose some per cent less than a curved hull.
 ALIKE = 0.1
 #: Volumes of the mesh, or of a quarter of it, over that of the body that are another unit.
@@ -24,10 +23,6 @@ DEEP = 20.0
 
 def hull_findings(database: HydroDatabase) -> list[Finding]:
     """Judge the hydrostatics of each body by themselves and by its mesh.
-
-    Parameters
-    ----------
-    database : HydroDatabase
 
     Returns
     -------

@@ -11,8 +11,8 @@ from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.scales import scaled_damping_eigenvalues, scales
 from hydrodae.hdb.relations import irf
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: A spike is more than this many robust standard deviations of the residual ...
 SPREADS = 5.0
 #: ... and more than this share of the added mass.
@@ -27,10 +27,6 @@ WINDOW = 15
 
 def ogilvie_residual(database: HydroDatabase) -> Array:
     """|A(w) + 1/w int K sin(wt) dt - A_inf| over the largest |A|, by coordinate.
-
-    Parameters
-    ----------
-    database : HydroDatabase
 
     Returns
     -------
@@ -47,10 +43,6 @@ def ogilvie_residual(database: HydroDatabase) -> Array:
 
 def suspect_rows(database: HydroDatabase) -> NDArray[np.bool_]:
     """Frequencies whose A or B cannot be right: narrow spikes of the Ogilvie residual, B < 0.
-
-    Parameters
-    ----------
-    database : HydroDatabase
 
     Returns
     -------

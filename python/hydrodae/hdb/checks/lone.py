@@ -16,8 +16,8 @@ from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.scales import scales
 from hydrodae.hdb.relations.noise import cubic_miss, last_digit
+from hydrodae.support.arrays import Array, Complex
 
-Array = NDArray[np.float64]
 #: A value is off by this share of H around it, and by so many times what its neighbours are.
 SHARE, ALONE = 0.01, 6.0
 #: Neighbours on either side that are judged without it.
@@ -30,10 +30,6 @@ MOST = 0.05
 
 def lone_rows(database: HydroDatabase) -> Array:
     """Distance of H from the cubic through its neighbours, over H, where that frequency is alone.
-
-    Parameters
-    ----------
-    database : HydroDatabase
 
     Returns
     -------
@@ -72,15 +68,13 @@ def lone_rows(database: HydroDatabase) -> Array:
     return found
 
 
-def _off_at(w: Array, h: NDArray[np.complex128], at: int) -> float:
+def _off_at(w: Array, h: Complex, at: int) -> float:
     """Distance of one value of h (nw,) from the cubic through its neighbours."""
     near = slice(at - 2, at + 3)
     return float(cubic_miss(w[near], h[near])[0])
 
 
-def _alone(
-    w: Array, h: NDArray[np.complex128], kept: NDArray[np.bool_], at: int, off: float
-) -> bool:
+def _alone(w: Array, h: Complex, kept: NDArray[np.bool_], at: int, off: float) -> bool:
     """Return whether the neighbours of a value that is `off` are right without it."""
     others = np.flatnonzero(kept)
     others = others[others != at]

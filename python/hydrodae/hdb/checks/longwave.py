@@ -16,7 +16,6 @@ import numpy as np
 
 from hydrodae.hdb.checks.band import Band
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.database.coordinates import split_label
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.tables import Body
 from hydrodae.hdb.relations.dispersion import wavenumber
@@ -236,8 +235,7 @@ def _heave(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
 
 def _size(db: HydroDatabase, body: Body) -> float:
     """Width of a body [m], on the large side, from its added masses of translation."""
-    split = [split_label(c) for c in db.coordinates]
-    moved = [i for i, (name, dof) in enumerate(split) if name == body.name and dof < 3]
+    moved = [i for i, c in enumerate(db.labels) if c.body == body.name and c.is_translation]
     if not moved:
         return np.inf
     return float(3.0 * np.cbrt(np.abs(db.added_mass_inf[moved, moved]).max() / db.rho))

@@ -20,12 +20,12 @@ from numpy.typing import NDArray
 from hydrodae.hdb.checks.ground import standing
 from hydrodae.hdb.checks.irregular import suspect_rows
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.database.coordinates import split_label
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.scales import scales
+from hydrodae.hdb.labels import read_labels
 from hydrodae.hdb.relations.dispersion import group_velocity, wavenumber
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Fewest frequencies that a verdict rests on.
 FEWEST = 2
 #: Longest k times the length of the body.
@@ -50,10 +50,6 @@ WALLS = 0.06
 def one_heading_findings(database: HydroDatabase) -> list[Finding]:
     """Compare the damping of each motion with what one heading implies.
 
-    Parameters
-    ----------
-    database : HydroDatabase
-
     Returns
     -------
     list of Finding
@@ -65,9 +61,8 @@ def one_heading_findings(database: HydroDatabase) -> list[Finding]:
     if not off:
         return []
     groups: dict[tuple[str, bool], list[str]] = {}
-    for label in off:
-        body, dof = split_label(label)
-        groups.setdefault((body, dof >= 3), []).append(label)
+    for one in read_labels(off):
+        groups.setdefault((one.body, one.is_rotation), []).append(str(one))
     alike = [min(labels, key=lambda c: abs(off[c])) for labels in groups.values()]
     every = max(alike, key=lambda c: abs(off[c]))
     worst = max(off, key=lambda c: abs(off[c]))
@@ -93,7 +88,7 @@ def in_a_tank(database: HydroDatabase) -> bool:
 
 def clean_rows(db: HydroDatabase, held: Sequence[str]) -> NDArray[np.bool_]:
     """Report which frequencies (nw,) keep causality and energy, bodies on the ground left out."""
-    moving = [c for c in db.coordinates if split_label(c)[0] not in held]
+    moving = [str(label) for label in db.labels if label.body not in held]
     return ~suspect_rows(db.select(moving) if held and moving else db)
 
 
@@ -114,8 +109,8 @@ def _logs(db: HydroDatabase) -> tuple[dict[str, float], set[str]]:
     factor = k / (8.0 * db.rho * db.gravity * speed)
     held, active = standing(db), scales(db) > 0.0
     clean = clean_rows(db, held)
-    for i, label in enumerate(db.coordinates):
-        body, dof = split_label(label)
+    for i, label in enumerate(db.labels):
+        body, dof = label.body, label.dof
         if dof == 5 or body in held or not active[i]:
             continue
         share = np.ones(db.heading.size)
@@ -138,9 +133,9 @@ def _logs(db: HydroDatabase) -> tuple[dict[str, float], set[str]]:
         power = power_of(k[used], implied[used] / b[used])
         if abs(power) > NOISE:
             continue
-        found[label] = float(np.log(np.median(implied[used] / b[used])))
+        found[str(label)] = float(np.log(np.median(implied[used] / b[used])))
         if abs(power - 1.0) < WALLS:
-            tank.add(label)
+            tank.add(str(label))
     return found, tank
 
 
@@ -150,15 +145,14 @@ def _length(db: HydroDatabase, body: str, k: Array) -> float:
     One of the two may be in other units.
     """
     added, forces = [], []
-    for i, label in enumerate(db.coordinates):
-        name, dof = split_label(label)
-        if name != body:
+    for i, label in enumerate(db.labels):
+        if label.body != body:
             continue
         mass = float(np.abs(db.added_mass_inf[i, i])) / db.rho
-        added.append(LENGTH * mass ** (0.2 if dof >= 3 else 1.0 / 3.0))
+        added.append(LENGTH * mass ** (0.2 if label.is_rotation else 1.0 / 3.0))
         force = np.abs(db.excitation[:, :, i]).max(axis=1) / (db.rho * db.gravity)
-        if dof == 2:
+        if label.motion == "heave":
             forces.append(float(np.sqrt(force.max())))
-        elif dof < 2:
+        elif label.is_translation:
             forces.append(LENGTH * float((force / k).max()) ** (1.0 / 3.0))
     return min(max(values) for values in (added, forces) if values)

@@ -18,11 +18,10 @@ from numpy.typing import NDArray
 from scipy.special import j1
 
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.database.coordinates import split_label
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Longest k times the larger body, and k times the distance up to which the waves meet in order.
 LONG, FARTHEST = 1.0, 3.5
 #: Fewest frequencies, correlation that is no chance, least share of the distance along a motion.
@@ -41,10 +40,6 @@ ABOVE = 10.0
 
 def place_findings(database: HydroDatabase) -> list[Finding]:
     """Judge the coupling of bodies by their places, and of motions of a body by each other.
-
-    Parameters
-    ----------
-    database : HydroDatabase
 
     Returns
     -------
@@ -110,9 +105,7 @@ def _width(db: HydroDatabase, *names: str) -> float:
     """Cube root of the largest added volume of some bodies [m]."""
     own = np.abs(np.diag(db.added_mass_inf)) / db.rho
     sizes = [
-        own[i]
-        for i, label in enumerate(db.coordinates)
-        if split_label(label)[0] in names and split_label(label)[1] < 3
+        own[i] for i, label in enumerate(db.labels) if label.body in names and label.is_translation
     ]
     return float(np.cbrt(max(sizes, default=0.0)))
 

@@ -16,8 +16,8 @@ from hydrodae.hdb.database.coordinates import nearest
 from hydrodae.hdb.database.scales import scales
 from hydrodae.hdb.relations import infinity, irf, tails
 from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Share of the frequencies that may be replaced, unless another one is given.
 MOST_REPLACED = 0.15
 #: The tail reaches this multiple of the last frequency, in steps of this ratio.
@@ -117,7 +117,7 @@ def irregular(db: HydroDatabase, share: float = MOST_REPLACED) -> tuple[HydroDat
     good = np.flatnonzero(~mask)
     inside = np.zeros_like(mask)
     inside[good[0] : good[-1] + 1] = mask[good[0] : good[-1] + 1]
-    made = _rows(_interpolated(db, ~mask, inside), ~mask | inside)
+    made = _interpolated(db, ~mask, inside).at_frequencies(~mask | inside)
     text = f"interpolated {inside.sum()} of {mask.size} frequencies ({inside.mean():.1%})"
     if ends := int((mask & ~inside).sum()):
         text += f", left out {ends} at the ends"
@@ -126,9 +126,7 @@ def irregular(db: HydroDatabase, share: float = MOST_REPLACED) -> tuple[HydroDat
         w, a, b = made.omega, made.added_mass, made.radiation_damping
         value, std = infinity.added_mass_inf(w, a, b)
         made = replace(
-            made,
-            added_mass_inf=0.5 * (value + value.T),
-            added_mass_inf_std=0.5 * (std + std.T),
+            made, added_mass_inf=0.5 * (value + value.T), added_mass_inf_std=0.5 * (std + std.T)
         )
         text += "; added_mass_inf estimated again"
     return made, text
@@ -157,7 +155,7 @@ def _interpolated(
 
 def _along(db: HydroDatabase) -> Array:
     """Distance (nh, n) of the reference points along each heading [m]; 0 where unknown."""
-    points = [db.bodies[c.rpartition(".")[0]].reference_point for c in db.coordinates]
+    points = [db.bodies[label.body].reference_point for label in db.labels]
     places = np.array([np.zeros(3) if p is None else p for p in points])
     return np.asarray(
         np.outer(np.cos(db.heading), places[:, 0]) + np.outer(np.sin(db.heading), places[:, 1])
@@ -220,17 +218,6 @@ def tail(db: HydroDatabase) -> tuple[HydroDatabase, str]:
     return extended, (
         f"appended {count} frequencies {more[0]:.4g}..{more[-1]:.4g} rad/s with B ~ w^-n, "
         f"n = {powers}; A by Ogilvie's relation; |F| ~ w^-(n+3)/2"
-    )
-
-
-def _rows(db: HydroDatabase, keep: NDArray[np.bool_]) -> HydroDatabase:
-    return replace(
-        db,
-        omega=db.omega[keep],
-        added_mass=db.added_mass[keep],
-        radiation_damping=db.radiation_damping[keep],
-        froude_krylov=db.froude_krylov[keep],
-        diffraction=db.diffraction[keep],
     )
 
 

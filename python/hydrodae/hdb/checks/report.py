@@ -13,24 +13,19 @@ from numpy.typing import NDArray
 from hydrodae.hdb.checks.energy import energy_identity
 from hydrodae.hdb.checks.irregular import bands, ogilvie_residual, suspect_rows
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.database.coordinates import DOFS, rigid, split_label
 from hydrodae.hdb.database.findings import CheckReport
 from hydrodae.hdb.database.kernels import diagonal_kernels, envelope_length
 from hydrodae.hdb.database.scales import scaled_damping_eigenvalues, scales
+from hydrodae.hdb.labels import Label, rigid
 from hydrodae.hdb.relations import tails
 from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.support.arrays import Array
 from hydrodae.support.style import COLORS, STYLE
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-Array = NDArray[np.float64]
-UNITS = {
-    "A": ("kg", "kg m2"),
-    "B": ("N s/m", "N m s"),
-    "F": ("N/m", "N m/m"),
-    "K": ("N/m", "N m"),
-}
+UNITS = {"A": ("kg", "kg m2"), "B": ("N s/m", "N m s"), "F": ("N/m", "N m/m"), "K": ("N/m", "N m")}
 SUSPECT, FIT = "#F6D5D5", "black"
 
 
@@ -78,7 +73,7 @@ def _head(db: HydroDatabase, report: CheckReport) -> str:
 
 
 def _draw_body(axes: NDArray[np.object_], db: HydroDatabase, body: str) -> None:
-    rows = [i for i, c in enumerate(db.coordinates) if split_label(c)[0] == body]
+    rows = [i for i, label in enumerate(db.labels) if label.body == body]
     active = scales(db) > 0.0
     radiating = [i for i in rows if active[i]]
     w = db.omega
@@ -86,7 +81,7 @@ def _draw_body(axes: NDArray[np.object_], db: HydroDatabase, body: str) -> None:
     fit = next((f for f in db.memory.values() if here & set(f.inputs)), None)
     for i in radiating:
         label = db.coordinates[i]
-        color = COLORS[split_label(label)[1]]
+        color = COLORS[Label.read(label).dof]
         a, b = db.added_mass[:, i, i], db.radiation_damping[:, i, i]
         top_a, top_b = np.abs(a).max(), np.abs(b).max()
         _line(axes[0, 0], w, a / top_a, label, top_a, "A")
@@ -110,9 +105,9 @@ def _draw_body(axes: NDArray[np.object_], db: HydroDatabase, body: str) -> None:
 
 
 def _line(ax: Axes, x: Array, y: Array, label: str, top: float, kind: str) -> None:
-    dof = split_label(label)[1]
-    unit = UNITS[kind][dof >= 3]
-    ax.plot(x, y, color=COLORS[dof], label=f"{DOFS[dof]} / {top:.3g} {unit}")
+    named = Label.read(label)
+    unit = UNITS[kind][named.is_rotation]
+    ax.plot(x, y, color=COLORS[named.dof], label=f"{named.motion} / {top:.3g} {unit}")
     ax.legend(loc="best", fontsize=7, frameon=True, framealpha=0.7, edgecolor="none")
 
 
@@ -144,7 +139,7 @@ def _draw_excitation(
     force = db.excitation[:, h] * shift[:, None]
     top = np.abs(force).max(axis=0)
     for kind in (True, False):
-        mine = [i for i in rows if (split_label(db.coordinates[i])[1] >= 3) == kind]
+        mine = [i for i in rows if db.labels[i].is_rotation == kind]
         largest = max((top[i] for i in mine), default=0.0)
         for i in mine:
             if top[i] > 1e-3 * largest > 0.0:
@@ -153,7 +148,7 @@ def _draw_excitation(
                 angle = np.where(np.abs(force[:, i]) > 1e-3 * top[i], np.angle(force[:, i]), np.nan)
                 jumps = np.flatnonzero(np.abs(np.diff(angle)) > np.pi)
                 angle[jumps] = np.nan
-                phase_ax.plot(db.omega, angle, color=COLORS[split_label(label)[1]])
+                phase_ax.plot(db.omega, angle, color=COLORS[db.labels[i].dof])
     size_ax.set_title(f"excitation |F|, heading {np.degrees(beta):.4g} deg")
     phase_ax.set_title("phase of F at the reference point, e^{+iwt}")
     phase_ax.set_ylim(-np.pi, np.pi)
@@ -186,7 +181,7 @@ def _draw_causality(ax: Axes, db: HydroDatabase, radiating: list[int]) -> None:
     used = np.flatnonzero(scales(db) > 0.0).tolist()
     residual = ogilvie_residual(db)
     for i in radiating:
-        dof = split_label(db.coordinates[i])[1]
+        dof = db.labels[i].dof
         ax.semilogy(db.omega, np.maximum(residual[:, used.index(i)], 1e-6), color=COLORS[dof])
     negative = np.maximum(-scaled_damping_eigenvalues(db), 1e-6)
     ax.semilogy(db.omega, negative, color="black", lw=0.8, label="negative eigenvalue of scaled B")

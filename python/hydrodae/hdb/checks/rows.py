@@ -6,15 +6,13 @@ A table that lost a row, or a sign, reads as a device that moves without water t
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.hdb.checks.ground import standing
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.database.coordinates import split_label
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Added mass of a translation over the largest one of its body that is a row left out.
 EMPTY = 1e-9
 #: Share of the largest added mass of its kind from which a negative one is no noise.
@@ -30,10 +28,6 @@ ROUND = 0.05
 
 def row_findings(database: HydroDatabase) -> list[Finding]:
     """Judge the diagonals of A and B, and report what cannot be checked without forces of waves.
-
-    Parameters
-    ----------
-    database : HydroDatabase
 
     Returns
     -------
@@ -55,7 +49,7 @@ def _empty(db: HydroDatabase) -> list[Finding]:
     largest = np.abs(np.einsum("wii->wi", db.added_mass)).max(axis=0)
     held, found = standing(db), []
     for body in db.bodies:
-        going = [i for i, c in enumerate(db.coordinates) if split_label(c)[0] == body and _goes(c)]
+        going = [i for i, c in enumerate(db.labels) if c.body == body and c.is_translation]
         top = max((largest[i] for i in going), default=0.0)
         lost = [db.coordinates[i] for i in going if largest[i] <= EMPTY * top]
         if lost and body not in held:
@@ -64,14 +58,10 @@ def _empty(db: HydroDatabase) -> list[Finding]:
     return found
 
 
-def _goes(label: str) -> bool:
-    return split_label(label)[1] < 3
-
-
 def _signs(db: HydroDatabase) -> list[Finding]:
     middle = np.median(np.einsum("wii->wi", db.added_mass), axis=0)
     lowest = np.maximum(middle, np.diag(db.added_mass_inf))
-    goes = np.array([_goes(c) for c in db.coordinates])
+    goes = np.array([label.is_translation for label in db.labels])
     # where B has the wrong sign as well, that is reported of B
     told = np.median(np.einsum("wii->wi", db.radiation_damping), axis=0) < 0.0
     wrong = []
@@ -93,9 +83,9 @@ def _damping(db: HydroDatabase) -> list[Finding]:
         still &= np.ptp(a, axis=0) > MAKES_WAVES * size
         top = {body: max(_sizes(db, size, body), default=0.0) for body in db.bodies}
         names = [
-            label
-            for i, label in enumerate(db.coordinates)
-            if still[i] and _goes(label) and size[i] > NOISE * top[split_label(label)[0]]
+            str(label)
+            for i, label in enumerate(db.labels)
+            if still[i] and label.is_translation and size[i] > NOISE * top[label.body]
         ]
         if not names:
             return []
@@ -114,8 +104,8 @@ def _damping(db: HydroDatabase) -> list[Finding]:
 
 def _sizes(db: HydroDatabase, size: Array, body: str) -> list[float]:
     """Largest added masses of the translations of a body."""
-    own = zip(db.coordinates, size, strict=True)
-    return [float(s) for c, s in own if split_label(c)[0] == body and _goes(c)]
+    own = zip(db.labels, size, strict=True)
+    return [float(s) for label, s in own if label.body == body and label.is_translation]
 
 
 def _turns(db: HydroDatabase) -> list[Finding]:

@@ -23,12 +23,11 @@ from numpy.typing import NDArray
 from hydrodae.hdb.checks.ground import standing
 from hydrodae.hdb.checks.one_heading import clean_rows, in_a_tank
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.database.coordinates import split_label
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.relations.dispersion import group_velocity, wavenumber
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Fewest frequencies, and longest k times a length, of a verdict on forces and on damping.
 FEWEST, LONG, LONGER = 2, 0.3, 0.8
 #: A_11 over what diffraction says: 0.97 to 1.14 in 24 tables; over the whole force: 0.14 to 0.91.
@@ -52,10 +51,6 @@ UNITS = "another unit, density, or a garbled number"
 def size_findings(database: HydroDatabase) -> list[Finding]:
     """Compare sizes of A, B and F with each other and with the hydrostatics.
 
-    Parameters
-    ----------
-    database : HydroDatabase
-
     Returns
     -------
     list of Finding
@@ -78,8 +73,8 @@ def _width(db: HydroDatabase) -> float:
 
 def _together(db: HydroDatabase, names: Sequence[str], dof: int) -> NDArray[np.intp]:
     """Return the indices of one motion of some bodies; none unless all have it."""
-    split = [split_label(label) for label in db.coordinates]
-    at = [i for i, (name, own) in enumerate(split) if name in names and own == dof]
+    labels = enumerate(db.labels)
+    at = [i for i, label in labels if label.body in names and label.dof == dof]
     return np.array(at if len(at) == len(names) else [], dtype=np.intp)
 
 
@@ -146,7 +141,7 @@ def _of_hulls(db: HydroDatabase) -> list[Finding]:
 
 def _impossible(db: HydroDatabase, name: str, statics: Hydrostatics) -> str:
     """Report what does not go together, or nothing."""
-    at = {dof: i for i, c in enumerate(db.coordinates) for b, dof in [split_label(c)] if b == name}
+    at = {label.dof: i for i, label in enumerate(db.labels) if label.body == name}
     volume, area = statics.displaced_volume, statics.waterplane_area
     height = abs(float(statics.center_of_buoyancy[2]))
     if area * height > 0.0 and 0.0 < volume < LEAST_VOLUME * area * height:
@@ -221,12 +216,7 @@ def _of_damping(database: HydroDatabase, names: Sequence[str]) -> Finding | None
 
 
 def _damping_of(
-    db: HydroDatabase,
-    name: str,
-    dof: int,
-    names: Sequence[str],
-    k: Array,
-    long: NDArray[np.bool_],
+    db: HydroDatabase, name: str, dof: int, names: Sequence[str], k: Array, long: NDArray[np.bool_]
 ) -> tuple[float, str, float] | None:
     """Implied over stored damping of one motion, its label, and the ratio that is an error.
 

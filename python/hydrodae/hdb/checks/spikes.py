@@ -7,14 +7,13 @@ in frequency, however: a value is held against the line through its two neighbou
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.hdb.checks.band import Band, inside
 from hydrodae.hdb.checks.phase import without_phase
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: A spike is off its neighbours' line by this share of the force ...
 SHARE = 0.1
 #: ... and by so many times what the values around it are off theirs.
@@ -32,10 +31,6 @@ ENOUGH = 8
 
 def spikes(database: HydroDatabase) -> Array:
     """Distance from the line through both neighbours, over the force, where that is a spike.
-
-    Parameters
-    ----------
-    database : HydroDatabase
 
     Returns
     -------

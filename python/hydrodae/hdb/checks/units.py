@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.scales import scales
 from hydrodae.hdb.relations.causality import causal_line, causal_slope
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Correlation that a line must have, and factor that is no longer noise.
 CORRELATION, FACTOR = 0.98, 2.0
 #: Standard error of a slope over it, and the slope that no noise makes, where the tail is free.

@@ -10,14 +10,13 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.hdb.database.findings import Finding
+from hydrodae.support.arrays import Array
 
 if TYPE_CHECKING:
     from hydrodae.hdb.database.database import HydroDatabase
 
-Array = NDArray[np.float64]
 TURN = 2.0 * np.pi
 #: Widest gap that is closed [rad]: cos(beta) needs four values around the circle.
 WIDEST = 0.5 * np.pi

@@ -7,13 +7,11 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import coordinates as co
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array, Complex
 
 
 @dataclass(frozen=True)
@@ -61,7 +59,7 @@ class RadiationKernel:
         """K as the convolution uses it, (nt, n_out, n_in)."""
         return self.values * taper(self.time)[:, None, None]
 
-    def transfer(self, omega: Array) -> NDArray[np.complex128]:
+    def transfer(self, omega: Array) -> Complex:
         """H(iw) = int_0^T K e^{-iwt} dt of the kernel as it is used, (nw, n_out, n_in)."""
         return transform(self.time, self.tapered(), np.asarray(omega, dtype=float))
 
@@ -101,7 +99,7 @@ def moved_kernel(kernel: RadiationKernel, shifts: Mapping[str, Array]) -> Radiat
     )
 
 
-def transform(time: Array, values: Array, omega: Array) -> NDArray[np.complex128]:
+def transform(time: Array, values: Array, omega: Array) -> Complex:
     """Return int values e^{-iwt} dt by the trapezoid on a spline four times as fine.
 
     The times of the fine grid are t = t_a + t_b: sums over the t_b of each t_a come first, then one

@@ -1,4 +1,4 @@
-"""Coordinate labels `<body>.<dof>`: names, shorthands, and the move to another reference point."""
+"""Coordinates by their labels: names, shorthands, and the move to another reference point."""
 
 from __future__ import annotations
 
@@ -10,49 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.labels import DOFS, bodies_of, read_labels
+from hydrodae.support.arrays import Array
 
-DOFS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
-MODE = 6  #: stands for any mode, where a rigid motion has its number 0..5
-GROUPS = {
-    "all": DOFS,
-    "planar": ("surge", "heave", "pitch"),
-    "lateral": ("sway", "roll", "yaw"),
-}
-
-
-def split_label(label: str) -> tuple[str, int]:
-    """Split `<body>.<dof>` into the body name and the number 0..5 of the rigid motion, or `MODE`.
-
-    Raises
-    ------
-    DatabaseError
-        The label is not of that form.
-    """
-    body, _, dof = label.rpartition(".")
-    if not body or not dof:
-        raise DatabaseError(f"{label!r} is not <body>.<dof> ({', '.join(DOFS)}, or a mode)")
-    return body, DOFS.index(dof) if dof in DOFS else MODE
-
-
-def is_rotation(label: str) -> bool:
-    """Return whether a coordinate is an angle; modes are in metres."""
-    return 3 <= split_label(label)[1] < MODE
-
-
-def modes_of(body: str, labels: Iterable[str]) -> tuple[str, ...]:
-    """Return the names of the modes of a body, in the order of the labels."""
-    own = ((label, *split_label(label)) for label in labels)
-    return tuple(c.rpartition(".")[2] for c, name, dof in own if name == body and dof == MODE)
-
-
-def rigid(labels: Iterable[str]) -> list[str]:
-    """Return the labels that are no modes."""
-    return [label for label in labels if split_label(label)[1] != MODE]
-
-
-def bodies_of(labels: Iterable[str]) -> tuple[str, ...]:
-    """Return the body names in order of first appearance."""
-    return tuple(dict.fromkeys(split_label(label)[0] for label in labels))
+GROUPS = {"all": DOFS, "planar": ("surge", "heave", "pitch"), "lateral": ("sway", "roll", "yaw")}
 
 
 def body_name(raw: str) -> str:
@@ -158,23 +119,21 @@ def _no_coordinates(item: str, labels: Sequence[str]) -> str:
     near = difflib.get_close_matches(item, bodies, n=1, cutoff=0.6)
     if item in bodies or ("." not in item and near):
         body = item if item in bodies else near[0]
-        own = [name for name in (*shorthands, *labels) if name.rpartition(".")[0] == body]
+        own = [name for name in (*shorthands, *labels) if name.startswith(f"{body}.")]
         what = "is a body" if item in bodies else "is no coordinate"
         return f"{item!r} {what}; name what moves: {', '.join(own)}"
     return f"no coordinate {item!r} in the database{nearest(item, [*labels, *shorthands])}"
 
 
-def skew(r: ArrayLike) -> NDArray[np.float64]:
+def skew(r: ArrayLike) -> Array:
     """Return the matrix (3, 3) of the cross product r x."""
     x, y, z = np.asarray(r, dtype=float)
     return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
 
 
 def transport(
-    labels: Sequence[str],
-    shifts: Mapping[str, NDArray[np.float64]],
-    owner: str = "the database",
-) -> NDArray[np.float64]:
+    labels: Sequence[str], shifts: Mapping[str, Array], owner: str = "the database"
+) -> Array:
     """Matrix X of a change of reference points: U_old = X U_new, F_new = X^T F_old.
 
     Per body X = [[1, -r x], [0, 1]], r = old point - new point (v_old = v_new + w x r).
@@ -199,11 +158,11 @@ def transport(
     """
     x = np.eye(len(labels))
     place = {label: i for i, label in enumerate(labels)}
-    for label, column in place.items():
-        body, dof = split_label(label)
-        if not 3 <= dof < MODE or body not in shifts:
+    for column, label in enumerate(read_labels(labels)):
+        body = label.body
+        if not label.is_rotation or body not in shifts:
             continue
-        coupling = -skew(shifts[body])[:, dof - 3]
+        coupling = -skew(shifts[body])[:, label.dof - 3]
         for row, value in enumerate(coupling):
             if abs(value) < 1e-12:
                 continue

@@ -18,11 +18,11 @@ from hydrodae.hdb.database.radiation_kernel import LIMIT, make_kernel
 from hydrodae.hdb.database.summary import summary
 from hydrodae.hdb.database.tables import Body, Tables
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+from hydrodae.hdb.labels import bodies_of, modes_of, read_labels
+from hydrodae.support.arrays import Array
 
 if TYPE_CHECKING:
     from hydrodae.hdb.memory import ExponentialMemory
-
-Array = NDArray[np.float64]
 
 
 class HydroDatabase(Tables):
@@ -56,7 +56,7 @@ class HydroDatabase(Tables):
         """
         i = self.index(labels)
         square = np.ix_(i, i)
-        keep = co.bodies_of(labels)
+        keep = bodies_of(labels)
         return replace(
             self,
             coordinates=tuple(labels),
@@ -104,7 +104,7 @@ class HydroDatabase(Tables):
             raise DatabaseError(f"two bodies would get the same name: {list(new.values())}")
 
         def rename(labels: Sequence[str]) -> tuple[str, ...]:
-            return tuple(f"{new[c.rpartition('.')[0]]}.{c.rpartition('.')[2]}" for c in labels)
+            return tuple(f"{new[c.body]}.{c.motion}" for c in read_labels(labels))
 
         return replace(
             self,
@@ -113,9 +113,7 @@ class HydroDatabase(Tables):
             kernel=None
             if self.kernel is None
             else replace(
-                self.kernel,
-                inputs=rename(self.kernel.inputs),
-                outputs=rename(self.kernel.outputs),
+                self.kernel, inputs=rename(self.kernel.inputs), outputs=rename(self.kernel.outputs)
             ),
             memory={
                 key: replace(fit, inputs=rename(fit.inputs), outputs=rename(fit.outputs))
@@ -168,21 +166,39 @@ class HydroDatabase(Tables):
             memory={key: _moved_fit(key, fit, shifts) for key, fit in self.memory.items()},
         )
 
-    def without_coupling(self) -> Self:
+    def at_frequencies(self, kept: NDArray[np.bool_]) -> Self:
+        """Return a copy with the tables at some of the frequencies, `kept` (nw,)."""
+        return replace(
+            self,
+            omega=self.omega[kept],
+            added_mass=self.added_mass[kept],
+            radiation_damping=self.radiation_damping[kept],
+            froude_krylov=self.froude_krylov[kept],
+            diffraction=self.diffraction[kept],
+        )
+
+    def without_coupling(self, near: NDArray[np.bool_] | None = None) -> Self:
         """Return a copy whose bodies radiate each for itself: blocks between bodies are zero.
 
         Fits and a stored kernel, which hold the coupling, are dropped; the excitation keeps the
         waves that the other bodies scatter.
+
+        Parameters
+        ----------
+        near : (nb, nb) array of bool, optional
+            Pairs of `bodies` whose blocks are kept; default: none but each with itself.
         """
-        body = np.array([label.rpartition(".")[0] for label in self.coordinates])
-        own = body[:, None] == body
+        names = list(self.bodies)
+        body = [names.index(label.body) for label in self.labels]
+        own = (np.eye(len(names), dtype=bool) if near is None else near)[np.ix_(body, body)]
+        which = "between bodies" if near is None else "of far bodies"
         return replace(
             self,
             added_mass=self.added_mass * own,
             radiation_damping=self.radiation_damping * own,
             added_mass_inf=self.added_mass_inf * own,
             added_mass_inf_std=self.added_mass_inf_std * own,
-            repairs=(*self.repairs, "coupling: blocks of A and B between bodies set to zero"),
+            repairs=(*self.repairs, f"coupling: blocks of A and B {which} set to zero"),
             kernel=None,
             memory={},
         )
@@ -219,10 +235,10 @@ class HydroDatabase(Tables):
 
 def _selected_modes(database: Tables, name: str, labels: Sequence[str]) -> Array | None:
     """Hydrostatics over the six and the modes among the labels."""
-    stiffness, kept = database.bodies[name].mode_stiffness, co.modes_of(name, labels)
+    stiffness, kept = database.bodies[name].mode_stiffness, modes_of(name, labels)
     if stiffness is None or not kept:
         return None
-    modes = co.modes_of(name, database.coordinates)
+    modes = modes_of(name, database.coordinates)
     rows = [*range(6), *(6 + modes.index(mode) for mode in kept)]
     return np.asarray(stiffness[np.ix_(rows, rows)])
 

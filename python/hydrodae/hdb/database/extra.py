@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
+from hydrodae.support.arrays import Array, Complex
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -37,9 +38,9 @@ class SourceTable:
         Values along the dimensions that have some: numbers [rad/s, rad] or labels.
     """
 
-    values: NDArray[np.float64] | NDArray[np.complex128]
+    values: Array | Complex
     dims: tuple[str, ...]
-    axes: Mapping[str, NDArray[np.float64] | tuple[str, ...]]
+    axes: Mapping[str, Array | tuple[str, ...]]
 
     def to_xarray(self) -> xr.DataArray:
         """Return the table with its axes."""
@@ -113,7 +114,7 @@ def read_extra(group: h5py.Group) -> dict[str, SourceTable]:
     return found
 
 
-def _axis(values: NDArray[np.generic]) -> NDArray[np.float64] | tuple[str, ...]:
+def _axis(values: NDArray[np.generic]) -> Array | tuple[str, ...]:
     if values.dtype.kind in "fiu":
         return np.asarray(values, dtype=float)
     return tuple(_label(value) for value in values)

@@ -11,7 +11,6 @@ import h5py
 import numpy as np
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.database import coordinates as co
 from hydrodae.hdb.database.convolution import RadiationKernel
 from hydrodae.hdb.database.extra import read_extra, write_extra
 from hydrodae.hdb.database.layout import (
@@ -28,6 +27,7 @@ from hydrodae.hdb.database.layout import (
 )
 from hydrodae.hdb.database.tables import Body, Tables
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+from hydrodae.hdb.labels import bodies_of
 from hydrodae.support import outputs
 from hydrodae.support.damaged import opened
 
@@ -203,7 +203,7 @@ def _read(f: h5py.File) -> dict[str, Any]:
     water = {name: read_numbers(f, name, ()) for name in ("rho", "gravity", "water_depth")}
     return dict(
         excitation_split=_text(f["excitation"].attrs.get("split", "")) != "total only",
-        bodies=_read_bodies(f, co.bodies_of(values["coordinates"])),
+        bodies=_read_bodies(f, bodies_of(values["coordinates"])),
         added_mass_inf_origin=_text(f["added_mass_inf"].attrs.get("origin", "")),
         kernel=None if stored is None else _read_kernel(stored),
         memory={name: _read_fit(name, fits[name]) for name in fits},

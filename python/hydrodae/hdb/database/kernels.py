@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline
 
-from hydrodae.hdb.database.coordinates import split_label
 from hydrodae.hdb.database.scales import scales
 from hydrodae.hdb.database.tables import Tables
 from hydrodae.hdb.database.transfer import TransferTables, enough
 from hydrodae.hdb.relations import irf
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Share of int |K| dt that may be left after the memory length.
 REST = 1e-3
 #: Longest memory that is looked for [s].
@@ -134,10 +133,9 @@ def excitation_kernel(database: Tables, time: ArrayLike) -> Array:
     """
     t = np.asarray(time, dtype=float)
     start = np.zeros(database.excitation.shape[1:], dtype=complex)
-    for i, label in enumerate(database.coordinates):
-        body, dof = split_label(label)
-        hs = database.bodies[body].hydrostatics
-        if dof == 2:
+    for i, label in enumerate(database.labels):
+        hs = database.bodies[label.body].hydrostatics
+        if label.motion == "heave":
             known = None if hs is None else database.rho * database.gravity * hs.waterplane_area
             start[:, i] = database.excitation[0, :, i].real if known is None else known
     knots = np.r_[0.0, database.omega]

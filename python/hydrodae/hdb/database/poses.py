@@ -56,7 +56,7 @@ def blended(
                     f"{table.source}: its {name} is not that of {database.source}; "
                     f"compute all poses for the same frequencies and headings"
                 )
-    labels = [label for label in database.coordinates if label.rpartition(".")[0] == body]
+    labels = [str(label) for label in database.labels if label.body == body]
     mine = database.index(labels)
 
     def blend(name: str, axes: int) -> NDArray[Any]:

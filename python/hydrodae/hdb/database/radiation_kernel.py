@@ -18,7 +18,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.convolution import RadiationKernel, taper, transform
@@ -27,8 +26,7 @@ from hydrodae.hdb.database.scales import scales
 from hydrodae.hdb.database.tables import Tables
 from hydrodae.hdb.database.transfer import GOOD, TransferTables, enough
 from hydrodae.hdb.relations import irf
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 #: Step of the grid times the highest frequency of the table: 20 points a period.
 RESOLUTION = 0.3

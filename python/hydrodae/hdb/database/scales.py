@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from hydrodae.hdb.database.coordinates import is_rotation
 from hydrodae.hdb.database.tables import Tables
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 def scales(database: Tables) -> Array:
@@ -20,7 +17,7 @@ def scales(database: Tables) -> Array:
         Zero for coordinates that hardly radiate (yaw of an axisymmetric body, mesh noise).
     """
     peak = np.maximum(np.einsum("wii->wi", database.radiation_damping).max(axis=0), 0.0)
-    rotation = np.array([is_rotation(c) for c in database.coordinates])
+    rotation = np.array([label.is_rotation for label in database.labels])
     for kind in (rotation, ~rotation):
         if kind.any():
             peak[kind & (peak < 1e-5 * peak[kind].max())] = 0.0

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hydrodae.hdb.database.convolution import RadiationKernel
-from hydrodae.hdb.database.coordinates import split_label
 from hydrodae.hdb.database.tables import Body, Tables
 
 if TYPE_CHECKING:
@@ -77,7 +76,7 @@ def kernel_summary(kernel: RadiationKernel) -> str:
 
 
 def _body(db: Tables, body: Body) -> list[str]:
-    dofs = [c.rpartition(".")[2] for c in db.coordinates if split_label(c)[0] == body.name]
+    dofs = [label.motion for label in db.labels if label.body == body.name]
     point = "unknown" if body.reference_point is None else _vector(body.reference_point)
     lines = [f"  body       {body.name}: {', '.join(dofs)}; moments about {point}"]
     hs = body.hydrostatics

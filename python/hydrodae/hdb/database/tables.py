@@ -14,13 +14,12 @@ from hydrodae.hdb.database import coordinates as co
 from hydrodae.hdb.database.convolution import RadiationKernel
 from hydrodae.hdb.database.extra import SourceTable
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+from hydrodae.hdb.labels import DOFS, Label, bodies_of, modes_of, read_labels
 from hydrodae.hdb.relations import irf
+from hydrodae.support.arrays import Array, Complex
 
 if TYPE_CHECKING:
     from hydrodae.hdb.memory import ExponentialMemory
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)
@@ -78,8 +77,8 @@ class Tables:
     Attributes
     ----------
     coordinates : (n,) tuple of str
-        Labels `<body>.<dof>`; any subset of the six of each body, in any order, and its modes under
-        other names.
+        Labels `<body>.<motion>`; any subset of the six motions of each body, in any order, and its
+        modes under other names.
     omega : (nw,) array
         Frequencies [rad/s], ascending, finite, > 0.
     added_mass, radiation_damping : (nw, n, n) arrays
@@ -147,16 +146,16 @@ class Tables:
         n, nw, nh = len(self.coordinates), self.omega.size, self.heading.size
         if len(set(self.coordinates)) != n or n == 0:
             raise DatabaseError(f"coordinates must be different labels: {self.coordinates}")
-        names = co.bodies_of(self.coordinates)
+        names = bodies_of(self.coordinates)
         if set(names) != set(self.bodies):
             raise DatabaseError(f"bodies {list(self.bodies)} do not fit the coordinates {names}")
         for name, body in self.bodies.items():
-            modes = co.modes_of(name, self.coordinates)
+            modes = modes_of(name, self.coordinates)
             found = 6 if body.mode_stiffness is None else len(body.mode_stiffness)
             if found != 6 + len(modes):
                 raise DatabaseError(
                     f"coordinates {', '.join(modes)} of {name!r}: expected a mode_stiffness of "
-                    f"6 + {len(modes)} rows, or one of {', '.join(co.DOFS)}"
+                    f"6 + {len(modes)} rows, or one of {', '.join(DOFS)}"
                 )
         shapes = {
             "omega": (nw,),
@@ -178,6 +177,11 @@ class Tables:
             raise DatabaseError("omega must be ascending and > 0 [rad/s]")
         if not (self.rho > 0.0 and self.gravity > 0.0 and self.water_depth > 0.0):
             raise DatabaseError("rho, gravity and water_depth must be > 0")
+
+    @property
+    def labels(self) -> list[Label]:
+        """The coordinates, each as its body and its motion."""
+        return read_labels(self.coordinates)
 
     @property
     def excitation(self) -> Complex:

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from hydrodae.hdb.database.convolution import taper, transform
 from hydrodae.hdb.relations import irf
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array, Complex
 
 #: Weight of the frequencies inside the band, in the least squares for A_inf.
 BAND_WEIGHT = 500.0
@@ -60,7 +59,7 @@ class TransferTables:
         return float(w[0]), float(w[-1])
 
     @property
-    def iw(self) -> NDArray[np.complex128]:
+    def iw(self) -> Complex:
         """Imaginary frequency i w, (nw, 1, ...) [rad/s]."""
         return np.asarray(1j * self.omega.reshape(-1, *[1] * self.scale.ndim))
 
@@ -69,7 +68,7 @@ class TransferTables:
         a, b = self.added[:, i, i], self.damping[:, i, i]
         return TransferTables(self.omega, a, b, self.scale[i, i], self.asked)
 
-    def mass(self, transfer: NDArray[np.complex128]) -> Array:
+    def mass(self, transfer: Complex) -> Array:
         """A_inf that makes H_K + i w A_inf nearest to B + i w A: only Im H knows it."""
         weight = (np.where(self.inside, BAND_WEIGHT, 1.0) * self.omega) ** 2
         estimate = self.added - transfer.imag / self.iw.imag
@@ -77,7 +76,7 @@ class TransferTables:
 
     def error(
         self,
-        transfer: NDArray[np.complex128],
+        transfer: Complex,
         mass: Array,
         asked: tuple[float, float] | None = None,
     ) -> float:

@@ -12,17 +12,15 @@ from typing import Any
 import h5py
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError, DatabaseError
-from hydrodae.hdb.database.coordinates import DOFS, rigid, split_label
 from hydrodae.hdb.database.database import HydroDatabase
 from hydrodae.hdb.database.kernels import excitation_kernel, memory_length
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+from hydrodae.hdb.labels import six_of_each
 from hydrodae.support import outputs
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 #: Times of the kernels in a BEMIO file.
 KERNEL_TIMES = 1001
 #: Longest step of the time of a kernel times the highest frequency: 10 points a period.
@@ -154,10 +152,9 @@ def write_capytaine(database: HydroDatabase, path: str | Path) -> None:
     only. Where the source gave the total excitation only, the file has `excitation_force` alone.
     """
     db, target = database, Path(path)
-    if len(rigid(db.coordinates)) < len(db.coordinates):
+    if any(label.is_mode for label in db.labels):
         raise DatabaseError("this format has no modes of bodies: select the rigid coordinates")
-    body_of = [split_label(c) for c in db.coordinates]
-    dofs = [f"{body}__{DOFS[i].capitalize()}" for body, i in body_of]
+    dofs = [f"{label.body}__{label.motion.capitalize()}" for label in db.labels]
     n, nh = len(dofs), db.heading.size
     square = ("omega", "influenced_dof", "radiating_dof")
     force = ("complex", "omega", "wave_direction", "influenced_dof")
@@ -190,7 +187,7 @@ def write_capytaine(database: HydroDatabase, path: str | Path) -> None:
         "water_depth": db.water_depth,
     }
     if all(b.hydrostatics is not None for b in db.bodies.values()):
-        data.update(_capytaine_hydrostatics(db, points, body_of))
+        data.update(_capytaine_hydrostatics(db, points))
     attrs = {
         "title": db.title,
         "history": f"written by {db.generator}; source {db.source}, sha256 {db.source_sha256}",
@@ -201,13 +198,11 @@ def write_capytaine(database: HydroDatabase, path: str | Path) -> None:
     os.replace(partial, target)
 
 
-def _capytaine_hydrostatics(
-    db: HydroDatabase, points: Array, body_of: list[tuple[str, int]]
-) -> dict[str, Any]:
-    n = len(body_of)
+def _capytaine_hydrostatics(db: HydroDatabase, points: Array) -> dict[str, Any]:
+    n = len(db.coordinates)
     stiffness = np.zeros((n, n))
     for name in db.bodies:
-        mine = [(i, dof) for i, (body, dof) in enumerate(body_of) if body == name]
+        mine = [(i, label.dof) for i, label in enumerate(db.labels) if label.body == name]
         rows, six = [i for i, _ in mine], [dof for _, dof in mine]
         stiffness[np.ix_(rows, rows)] = db.hydrostatic_stiffness(name)[np.ix_(six, six)]
     statics = [_hydrostatics(db, name) for name in db.bodies]
@@ -220,8 +215,8 @@ def _capytaine_hydrostatics(
     }
 
 
-def _six_of_each(db: HydroDatabase) -> list[str]:
-    wanted = [f"{name}.{dof}" for name in db.bodies for dof in DOFS]
+def _six_of_each(db: HydroDatabase) -> tuple[str, ...]:
+    wanted = six_of_each(db.bodies)
     missing = [c for c in wanted if c not in db.coordinates]
     if missing:
         raise DatabaseError(

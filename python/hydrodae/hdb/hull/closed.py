@@ -5,13 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.hull.freeboard import walls_and_decks
 from hydrodae.hdb.hull.meshes import triangles_of
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Of the size of a surface: corners that are nearer to each other are one.
 SAME_PLACE = 1e-6
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from hydrodae.hdb.hull.meshes import triangles_of
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Height of what is drawn, over the draught.
 PART = 0.15
 

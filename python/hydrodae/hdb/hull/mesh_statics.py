@@ -9,12 +9,11 @@ With the normal n out of the body, over the hull below z = 0 (the waterplane add
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 def mesh_statics(panels: ArrayLike, point: ArrayLike) -> Hydrostatics:

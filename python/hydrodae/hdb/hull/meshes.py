@@ -8,11 +8,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from hydrodae.errors import DatabaseError
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 _TRIANGLE, _QUAD = 2, 3
 #: Corners that come first of GMSH's elements of higher order.
 _CORNERS = {_TRIANGLE: 3, _QUAD: 4, 9: 3, 10: 4, 16: 4}
@@ -20,10 +20,6 @@ _CORNERS = {_TRIANGLE: 3, _QUAD: 4, 9: 3, 10: 4, 16: 4}
 
 def read_mesh(path: str | Path) -> Array:
     """Read a mesh file; its content decides the format.
-
-    Parameters
-    ----------
-    path : path
 
     Returns
     -------

@@ -15,14 +15,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.hdb.interaction import radial
 from hydrodae.hdb.interaction.cylinder import Cylinder, Response, respond
 from hydrodae.hdb.interaction.vertical import Outside
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from hydrodae.support.arrays import Array, Complex
 
 #: Motions of the cylinder by order: its rows in (surge, sway, heave, roll, pitch, yaw).
 DOFS = 6

@@ -17,14 +17,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import special
 
 from hydrodae.hdb.interaction.radial import incident, outgoing_slope
 from hydrodae.hdb.interaction.vertical import Outside
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from hydrodae.support.arrays import Array, Complex
 
 #: Eigenfunctions below the body for every one outside, times depth over gap.
 INNER_SHARE = 1.0

@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 from scipy import special
 
 from hydrodae.hdb.interaction.vertical import Outside
-
-Complex = NDArray[np.complex128]
+from hydrodae.support.arrays import Complex
 
 
 def outgoing_slope(modes: Outside, radius: float, order: int) -> Complex:

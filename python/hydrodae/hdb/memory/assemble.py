@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from hydrodae.hdb.labels import read_labels
 from hydrodae.hdb.memory import data as prepare
 from hydrodae.hdb.memory.candidate import Candidate
 from hydrodae.hdb.memory.data import ImpedanceData
@@ -29,9 +30,7 @@ def assemble(
     """
     n_in, added_mass = len(inputs), _mean_added_mass(data, goal.band)
     added_mass[np.ix_(data.active, data.active)] = 0.0
-    translation = np.array(
-        [label.rsplit(".", 1)[-1] in ("surge", "sway", "heave") for label in inputs]
-    )
+    translation = np.array([label.is_translation for label in read_labels(inputs)])
     chosen = data.active & translation if np.any(data.active & translation) else data.active
     unit = float(data.scale[chosen].max())
     poles: list[ComplexArray] = []

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from hydrodae.hdb.labels import read_labels
 from hydrodae.hdb.memory.vector_fitting import Array
 
 ABOVE_CENTRE = 1.25
@@ -14,7 +15,6 @@ WIDTH = 30.0
 """Upper end of the band over its lower end: slow modes of articulated devices lie there."""
 NEGLIGIBLE = 1e-3
 """A coordinate whose largest damping is below this share of the largest of its kind is noise."""
-ROTATIONS = ("roll", "pitch", "yaw")
 LEAST = 4
 """Frequencies that a band must hold."""
 
@@ -43,7 +43,7 @@ def default_band(omega: Array, damping: Array, labels: Sequence[str]) -> tuple[f
     keep = np.isfinite(omega) & (omega > 0.0)
     omega, square = omega[keep], damping[keep] ** 2
     peak = np.abs(damping[keep]).max(axis=0)
-    turns = np.array([label.rsplit(".", 1)[-1] in ROTATIONS for label in labels])
+    turns = np.array([label.is_rotation for label in read_labels(labels)])
     largest = np.array([peak[turns == kind].max() for kind in turns])
     radiates = (peak > NEGLIGIBLE * largest) & np.isfinite(peak)
     if omega.size < LEAST or not radiates.any():

@@ -137,12 +137,7 @@ class Search:
     def judge(self, modes: Modes, method: str) -> None:
         """Make a model passive, and keep it with its verdict."""
         made = made_passive(
-            modes,
-            self.problem,
-            self.goal,
-            method,
-            alone=not self.passive,
-            thorough=not self.many,
+            modes, self.problem, self.goal, method, alone=not self.passive, thorough=not self.many
         )
         self.judged.append(made)
         self.say(

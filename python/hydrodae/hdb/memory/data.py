@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.labels import read_labels
 from hydrodae.hdb.memory.modes import Problem, Searches
 from hydrodae.hdb.memory.vector_fitting import (
     Array,
@@ -130,7 +131,7 @@ def gather(
     n = len(columns)
     square = 0.5 * (impedance[:, :n] + impedance[:, :n].transpose(0, 2, 1))
     peaks = np.einsum("wii->wi", damping[keep]).max(axis=0)
-    rotation = np.array([label.rsplit(".", 1)[-1] in ("roll", "pitch", "yaw") for label in labels])
+    rotation = np.array([label.is_rotation for label in read_labels(labels)])
     largest = np.array([peaks[rotation == kind].max(initial=0.0) for kind in rotation])[columns]
     own = peaks[columns]
     active = (own > NOISE * largest) & (own > 0.0)

@@ -54,10 +54,7 @@ class _Low:
 
 
 def press(
-    modes: Modes,
-    problem: Problem,
-    good: Callable[[Modes], bool],
-    iterations: int = 30,
+    modes: Modes, problem: Problem, good: Callable[[Modes], bool], iterations: int = 30
 ) -> Modes:
     """Refit the modes with a growing penalty until they are passive and good.
 

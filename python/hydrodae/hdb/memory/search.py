@@ -84,10 +84,7 @@ def _candidates(search: Search) -> Iterator[tuple[str, Modes]]:
             yield from _named(VECTOR, direct(search))
         return
     poles, least = rich_poles(search.problem, search.goal, search.say)
-    families = [
-        (VECTOR, pruned(search, poles, least)),
-        (VECTOR, tamed(search, poles)),
-    ]
+    families = [(VECTOR, pruned(search, poles, least)), (VECTOR, tamed(search, poles))]
     if least > NOISE:
         families.reverse()
     if method.by_realisation:

@@ -23,6 +23,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import eigh, qr
 
+from hydrodae.hdb.labels import read_labels
 from hydrodae.hdb.memory.modes import AnyArray, IntArray
 from hydrodae.hdb.memory.vector_fitting import Array, ComplexArray
 
@@ -37,7 +38,7 @@ FEWEST = 4
 ALIKE = 1.5
 """Coordinates of one kind are scaled alike where their scales, sorted, differ by no more."""
 KINDS = {"surge": "along", "sway": "along", "roll": "tilt", "pitch": "tilt"}
-"""Degrees of freedom that rotations about the vertical mix."""
+"""Motions that rotations about the vertical mix, which are scaled alike."""
 LARGEST = 90
 """Most coordinates for which symmetry is sought: the search takes n^4/4 numbers."""
 
@@ -190,7 +191,7 @@ def _joined(parts: list[Array], coupling: Array) -> list[Block]:
 def common_scale(scale: Array, group: IntArray, labels: Sequence[str]) -> Array:
     """Return scales that are the same for equal bodies, and for what a rotation mixes."""
     result = scale.copy()
-    kinds = np.array([_kind(label) for label in labels])
+    kinds = np.array([KINDS.get(label.motion, label.motion) for label in read_labels(labels)])
     for kind in set(kinds[group]):
         index = group[kinds[group] == kind]
         index = index[np.argsort(scale[index], kind="stable")]
@@ -198,9 +199,3 @@ def common_scale(scale: Array, group: IntArray, labels: Sequence[str]) -> Array:
         for members in np.split(index, cuts):
             result[members] = np.sqrt(np.mean(scale[members] ** 2))
     return result
-
-
-def _kind(label: str) -> str:
-    """Return what may be scaled alike with this coordinate."""
-    dof = label.rsplit(".", 1)[-1]
-    return KINDS.get(dof, dof)

@@ -21,6 +21,7 @@ def compute(
     work: str | os.PathLike[str],
     *,
     progress: Callable[[int, int, float, float], None] | None = None,
+    stage: Callable[[str], None] | None = None,
 ) -> tuple[HydroDatabase, CheckReport]:
     """Compute a database with Capytaine; the command `hydrodae hdb compute`.
 
@@ -38,6 +39,8 @@ def compute(
         Folder where finished frequencies are kept: an interrupted run goes on where it stopped.
     progress : callable, optional
         Called with (done, of, frequency [rad/s], seconds spent) after each frequency.
+    stage : callable, optional
+        Called with the name of each stage (`hydrodae.hdb.preparation.pipeline.COMPUTE`).
 
     Returns
     -------
@@ -54,5 +57,5 @@ def compute(
         Capytaine is missing, bad meshes, too many panels, or NaN at infinite frequency.
     """
     state = Computation("", bodies=bodies, settings=settings, work=Path(work), progress=progress)
-    pipeline.run(pipeline.COMPUTE, state)
+    pipeline.run(pipeline.COMPUTE, state, stage)
     return state.database, CheckReport(state.findings)

@@ -6,22 +6,20 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.checks.check import check
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.all_round import closed, closing_finding
-from hydrodae.hdb.database.coordinates import DOFS
 from hydrodae.hdb.database.findings import CheckReport, Finding
 from hydrodae.hdb.database.tables import Body
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.interaction.array import Solution, solve
 from hydrodae.hdb.interaction.cylinder import Cylinder
 from hydrodae.hdb.interaction.vertical import outside
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from hydrodae.hdb.labels import DOFS, six_of_each
+from hydrodae.support.arrays import Array, Complex
 
 #: Eigenfunctions over one draught, if not given; and the most that are taken by default.
 MODES_PER_DRAFT, MOST_MODES = 18, 600
@@ -215,7 +213,7 @@ def _collect(
         )
         bodies[name] = Body(name, np.array([x, y, body.point]), statics)
     return HydroDatabase(
-        coordinates=tuple(f"{name}.{dof}" for name in names for dof in DOFS),
+        coordinates=six_of_each(names),
         omega=water.omega,
         added_mass=table[:-1].real,
         radiation_damping=-table[:-1].imag * water.omega[:, None, None],

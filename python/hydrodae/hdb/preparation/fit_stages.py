@@ -14,13 +14,7 @@ from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.checks.band import felt_band
 from hydrodae.hdb.checks.irregular import suspect_rows
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.preparation.left_out import (
-    OUTSIDE,
-    at,
-    cure,
-    rows_left_out,
-    without_lone_rows,
-)
+from hydrodae.hdb.preparation.left_out import OUTSIDE, cure, rows_left_out, without_lone_rows
 
 if TYPE_CHECKING:
     from hydrodae.hdb.memory import ExponentialMemory
@@ -135,7 +129,7 @@ def search(state: Fit) -> None:
     with warnings.catch_warnings(record=True) as state.warned:
         warnings.simplefilter("always", MemoryFitWarning)
         state.made = fit_memory(
-            at(state.tables, ~state.bad),
+            state.tables.at_frequencies(~state.bad),
             inputs=state.moving,
             outputs=state.loads,
             name=state.name,

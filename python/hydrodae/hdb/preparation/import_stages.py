@@ -15,11 +15,12 @@ from hydrodae.hdb.checks.band import Band
 from hydrodae.hdb.checks.check import check
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.all_round import closed, closing_finding, goes_round
-from hydrodae.hdb.database.coordinates import bodies_of, check_body, expand
+from hydrodae.hdb.database.coordinates import check_body, expand
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.hull.mesh_statics import mesh_statics
 from hydrodae.hdb.hull.meshes import read_mesh
+from hydrodae.hdb.labels import bodies_of
 from hydrodae.hdb.preparation.mirroring import mirrored
 from hydrodae.hdb.readers.finishing import finish
 from hydrodae.hdb.readers.kinds import kind

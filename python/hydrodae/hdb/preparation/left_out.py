@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -53,7 +52,7 @@ def rows_left_out(
     for bad, text in ways:
         if best <= REACHED:
             break
-        tables = at(database, ~bad)
+        tables = database.at_frequencies(~bad)
         found = reach(
             tables, moving, band=band, target_outside=OUTSIDE, worst=NEARER * best, **options
         )
@@ -88,7 +87,7 @@ def without_lone_rows(
             f"memory fit: {text}: more than {MOST:.0%} of those in the band; what wrote the tables "
             f"failed there: compute them again"
         )
-    return at(database, ~bad), f"{text}: left out"
+    return database.at_frequencies(~bad), f"{text}: left out"
 
 
 def ways_out(
@@ -105,7 +104,7 @@ def ways_out(
     near = w <= ABOVE[0] * band[1]
     if near.sum() >= LEAST_ROWS:
         gives = np.zeros(w.size, bool)
-        gives[near] = scaled_damping_eigenvalues(at(database, near)) < NEGATIVE
+        gives[near] = scaled_damping_eigenvalues(database.at_frequencies(near)) < NEGATIVE
         bad = bad | binary_dilation(gives)
     bad = np.asarray(bad & ~inside(w, band))
     found = []
@@ -126,18 +125,6 @@ def ways_out(
         )
         found.append((gone, text))
     return found
-
-
-def at(database: HydroDatabase, keep: NDArray[np.bool_]) -> HydroDatabase:
-    """Return the tables at some of the frequencies (nw,)."""
-    return replace(
-        database,
-        omega=database.omega[keep],
-        added_mass=database.added_mass[keep],
-        radiation_damping=database.radiation_damping[keep],
-        froude_krylov=database.froude_krylov[keep],
-        diffraction=database.diffraction[keep],
-    )
 
 
 def cure(database: HydroDatabase, moving: Sequence[str], band: tuple[float, float]) -> str:

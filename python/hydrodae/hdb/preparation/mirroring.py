@@ -6,16 +6,15 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.all_round import EQUAL, closed
-from hydrodae.hdb.database.coordinates import rigid, split_label
 from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.labels import rigid
 from hydrodae.hdb.readers.symmetric import ACROSS, ALONG, SAME, absent
+from hydrodae.support.arrays import Array, Complex
 
-Array = NDArray[np.float64]
 TURN = 2.0 * np.pi
 #: Each plane: the component of a point normal to it, the signs of the six, and the heading of a
 #: mirrored wave, `first` - heading.
@@ -73,7 +72,7 @@ def mirrored(
 
 
 def _signs(database: HydroDatabase, plane: str) -> Array:
-    return np.array([PLANES[plane][1][split_label(c)[1]] for c in database.coordinates])
+    return np.array([PLANES[plane][1][label.dof] for label in database.labels])
 
 
 def _miss(database: HydroDatabase, plane: str) -> tuple[str, float]:
@@ -113,7 +112,7 @@ def _miss(database: HydroDatabase, plane: str) -> tuple[str, float]:
 def _largest(database: HydroDatabase) -> Array:
     """The largest force of the body of each coordinate, or the largest moment."""
     peaks = np.abs(database.excitation).max(axis=(0, 1))
-    kinds = [(name, dof >= 3) for name, dof in map(split_label, database.coordinates)]
+    kinds = [(label.body, label.is_rotation) for label in database.labels]
     return np.array([max(p for p, k in zip(peaks, kinds, strict=True) if k == kind) or 1.0
                      for kind in kinds])  # fmt: skip
 
@@ -131,7 +130,7 @@ def _with_images(database: HydroDatabase, plane: str) -> HydroDatabase:
     if heading[0] > np.pi:
         heading = heading - TURN
 
-    def both(force: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    def both(force: Complex) -> Complex:
         return np.concatenate([force, force[:, new] * sign], axis=1)[:, order]
 
     return closed(

@@ -50,6 +50,11 @@ COMPUTE: Stages[Computation] = (
 )
 
 
+def names(stages: Stages[State]) -> list[str]:
+    """Return the names of stages."""
+    return [name for name, _ in stages]
+
+
 def run(
     stages: Stages[State], state: State, progress: Callable[[str], None] | None = None
 ) -> State:

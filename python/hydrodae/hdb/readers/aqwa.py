@@ -11,7 +11,6 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
@@ -27,9 +26,7 @@ from hydrodae.hdb.readers.formats import Format
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.readers.text import number, read_lines
 from hydrodae.hdb.relations.dispersion import wavenumber
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from hydrodae.support.arrays import Array
 
 
 def aqwa_file(path: Path) -> Path | None:
@@ -55,10 +52,6 @@ def aqwa_file(path: Path) -> Path | None:
 
 def read_aqwa(path: Path) -> SourceData:
     """Read an `.AH1` file, or a `.LIS` listing.
-
-    Parameters
-    ----------
-    path : Path
 
     Returns
     -------

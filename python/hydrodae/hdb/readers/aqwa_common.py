@@ -8,12 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.database.coordinates import DOFS, unique_names
+from hydrodae.hdb.database.coordinates import unique_names
 from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.labels import six_of_each
 from hydrodae.hdb.readers.source import SourceData
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from hydrodae.support.arrays import Array, Complex
 
 
 def unit_of_mass(path: Path, rho: float, gravity: float) -> float:
@@ -97,7 +96,7 @@ def aqwa_data(
         findings.append(Finding("info", "added_mass_inf of the source", text))
     clean = unique_names(names)
     return SourceData(
-        coordinates=tuple(f"{name}.{dof}" for name in clean for dof in DOFS),
+        coordinates=six_of_each(clean),
         omega=omega,
         added_mass=tables[0],
         radiation_damping=tables[1],

@@ -12,7 +12,6 @@ import re
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
@@ -24,17 +23,11 @@ from hydrodae.hdb.readers.aqwa_common import (
     unique_headings,
     unit_of_mass,
 )
-from hydrodae.hdb.readers.aqwa_pages import (
-    pages_of_structures,
-    read_matrix,
-    read_radiation,
-)
+from hydrodae.hdb.readers.aqwa_pages import pages_of_structures, read_matrix, read_radiation
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.readers.text import NUMBER, number, read_text
 from hydrodae.hdb.relations.dispersion import wavenumber
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from hydrodae.support.arrays import Array, Complex
 
 #: What AQWA writes last, and within how many lines of the end.
 _END, END_LINES = re.compile(r"FINISH\s+(DATE|TIME)|Total elapsed time", re.IGNORECASE), 60
@@ -55,14 +48,6 @@ _STATED = {
 
 def read_listing(path: Path) -> SourceData:
     """Read a listing.
-
-    Parameters
-    ----------
-    path : Path
-
-    Returns
-    -------
-    SourceData
 
     Raises
     ------

@@ -6,12 +6,10 @@ import re
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.readers.text import NUMBER, number
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 _STRUCTURE = re.compile(r"S T R U C T U R E\s+(\d+)")
 _TABLE = re.compile(r"(?:H/I )?(ADDED MASS|DAMPING)(?: FOR FORCE ON STR# ?(\d+))?")
@@ -117,10 +115,7 @@ def read_radiation(
 
 
 def _of_structure(
-    path: Path,
-    lines: list[str],
-    moving: int,
-    found: dict[float, dict[tuple[str, int, int], Array]],
+    path: Path, lines: list[str], moving: int, found: dict[float, dict[tuple[str, int, int], Array]]
 ) -> None:
     omega = None
     for at, line in enumerate(lines):

@@ -12,17 +12,16 @@ from typing import Any
 
 import h5py
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.database.coordinates import DOFS, unique_names
+from hydrodae.hdb.database.coordinates import unique_names
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+from hydrodae.hdb.labels import six_of_each
 from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
+from hydrodae.support.arrays import Array
 from hydrodae.support.damaged import opened
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 #: Codes whose A_inf is an estimate of BEMIO: the mean over the lower part of its own grid.
 ESTIMATED_BY_BEMIO = ("NEMOH", "CAPYTAINE")
 
@@ -34,10 +33,6 @@ def is_bemio_file(f: h5py.File) -> bool:
 
 def read_bemio(path: Path) -> SourceData:
     """Read a BEMIO file.
-
-    Parameters
-    ----------
-    path : Path
 
     Returns
     -------
@@ -93,7 +88,7 @@ def _read(path: Path, f: h5py.File) -> SourceData:
     factor = 1.0 if scaled else rho
     code = _text(f["bem_data/code"][()]) if "bem_data/code" in f else "not stated"
     data = SourceData(
-        coordinates=tuple(f"{name}.{dof}" for name in names for dof in DOFS),
+        coordinates=six_of_each(names),
         omega=omega,
         added_mass=factor * np.concatenate(a).transpose(2, 0, 1)[order],
         radiation_damping=np.concatenate(b).transpose(2, 0, 1)[order],

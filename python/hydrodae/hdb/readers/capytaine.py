@@ -14,15 +14,16 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.database.coordinates import DOFS, unique_names
+from hydrodae.hdb.database.coordinates import unique_names
 from hydrodae.hdb.database.extra import kept_tables
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.shallow import shallow_findings
+from hydrodae.hdb.labels import DOFS
 from hydrodae.hdb.readers.capytaine_statics import attach_bodies, text
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.relations.dispersion import frequency
+from hydrodae.support.arrays import Array, Complex
 
-Array = NDArray[np.float64]
 FREQUENCY_AXES = ("omega", "period", "freq", "wavenumber", "wavelength")
 FORCES = {
     "froude_krylov": "Froude_Krylov_force",
@@ -218,7 +219,7 @@ def _matrix(path: Path, ds: xr.Dataset, name: str, dofs: list[str]) -> Array:
 
 def _force(
     path: Path, ds: xr.Dataset, name: str, dofs: list[str], order: NDArray[np.intp]
-) -> NDArray[np.complex128] | None:
+) -> Complex | None:
     """Return a force as (nw, nh, n) in the project convention."""
     if name not in ds:
         return None

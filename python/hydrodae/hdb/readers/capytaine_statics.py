@@ -7,16 +7,14 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from hydrodae.hdb.database.coordinates import DOFS, bodies_of
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+from hydrodae.hdb.labels import DOFS, bodies_of
 from hydrodae.hdb.readers import nemoh_hydrostatics as nh
 from hydrodae.hdb.readers.reference import assume_by_statics
 from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 def attach_bodies(data: SourceData, ds: xr.Dataset, raw: list[str], path: Path) -> None:

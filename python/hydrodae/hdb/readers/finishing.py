@@ -6,11 +6,12 @@ import numpy as np
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.database.coordinates import bodies_of
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.tables import Body
-from hydrodae.hdb.readers.source import TABLES, Array, Complex, SourceData, sha256
+from hydrodae.hdb.labels import bodies_of
+from hydrodae.hdb.readers.source import TABLES, SourceData, sha256
 from hydrodae.hdb.relations import infinity
+from hydrodae.support.arrays import Array, Complex
 from hydrodae.support.version import version
 
 #: Halves of A or B further apart, over the diagonal, are no noise: a number is garbled.
@@ -161,7 +162,7 @@ def exchange_finding(data: SourceData) -> None:
 def uncoupled_finding(data: SourceData) -> None:
     """Report bodies that no entry of A and B couples: blocks left out, not zero by symmetry."""
     bodies = bodies_of(data.coordinates)
-    body = np.array([bodies.index(c.rpartition(".")[0]) for c in data.coordinates])
+    body = np.array([bodies.index(label.body) for label in data.labels])
     filled = np.any(data.added_mass != 0.0, axis=0) | np.any(data.radiation_damping != 0.0, axis=0)
     radiates = [bool(filled[np.ix_(body == i, body == i)].any()) for i in range(len(bodies))]
     alone = [
@@ -283,11 +284,6 @@ def _added_mass_inf(data: SourceData, a: Array, b: Array) -> tuple[Array, Array,
         level = "error"
         text += "; so far off are A and B of different columns, units or runs"
     data.findings.append(
-        Finding(
-            level,
-            "added_mass_inf of the source",
-            text,
-            value=float(error.max()),
-        )
+        Finding(level, "added_mass_inf of the source", text, value=float(error.max()))
     )
     return given, np.abs(given - value), "source"

@@ -13,11 +13,7 @@ from pathlib import Path
 from hydrodae.hdb.readers.source import SourceData
 
 #: Modules of this folder with a FORMAT, in the order in which a source is tried.
-READERS = (
-    "wamit",
-    "aqwa",
-    "orcawave",
-)
+READERS = ("wamit", "aqwa", "orcawave")
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
@@ -16,8 +15,8 @@ from hydrodae.hdb.readers.nemoh_hydrostatics import mesh_file
 from hydrodae.hdb.readers.reference import origin_by_moments
 from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
 from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: What flat panels, and the slope of the waves, may leave of the long-wave force.
 ALIKE = 0.1
 

@@ -11,20 +11,19 @@ import re
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.database.coordinates import DOFS, unique_names
+from hydrodae.hdb.database.coordinates import unique_names
 from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.labels import DOFS
 from hydrodae.hdb.readers import nemoh_hydrostatics as nh
 from hydrodae.hdb.readers import tecplot
 from hydrodae.hdb.readers.mesh_beside import statics_of_mesh
 from hydrodae.hdb.readers.nemoh_cal import CalBody, NemohCal, read_cal
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.support.arrays import Array, Complex
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 Mode = tuple[int, int]  # body, degree of freedom
 
 _MOTION = re.compile(r"body\s+(\d+)\s+in\s+DoF\s+(\d+)", re.IGNORECASE)
@@ -44,10 +43,6 @@ def read_nemoh(path: Path) -> SourceData:
     ----------
     path : Path
         The folder that holds `Nemoh.cal`, or that file.
-
-    Returns
-    -------
-    SourceData
 
     Raises
     ------

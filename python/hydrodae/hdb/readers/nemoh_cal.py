@@ -11,11 +11,11 @@ from dataclasses import dataclass, field
 from pathlib import Path, PureWindowsPath
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.database.coordinates import DOFS
+from hydrodae.hdb.labels import DOFS
 from hydrodae.hdb.readers.text import number, read_lines, words
+from hydrodae.support.arrays import Array
 
 #: No run has more frequencies, headings or bodies than this.
 LARGEST_COUNT = 1_000_000
@@ -62,8 +62,8 @@ class NemohCal:
     depth: float
     origin: tuple[float, float]
     bodies: list[CalBody]
-    omega: NDArray[np.float64]
-    heading_deg: NDArray[np.float64]
+    omega: Array
+    heading_deg: Array
 
 
 class _Lines:
@@ -193,7 +193,7 @@ def _read_mode(lines: _Lines) -> CalMode:
     return CalMode(int(axis[0]) + (3 if kind == 2 else 0), (point[0], point[1], point[2]))
 
 
-def _read_frequencies(lines: _Lines) -> NDArray[np.float64]:
+def _read_frequencies(lines: _Lines) -> Array:
     """Read `N min max` [rad/s] (Nemoh 2) or `type N min max` (Nemoh 3): the count decides."""
     values = lines.numbers("number of frequencies, min, max", 3)
     kind = 1

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
@@ -15,8 +14,7 @@ from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.hull.mesh_statics import mesh_statics
 from hydrodae.hdb.hull.meshes import read_mesh
 from hydrodae.hdb.readers.text import finite, read_lines
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 _PAIR = re.compile(r"=\s*(\S+)\s*-\s*[XYZ]G\s*=\s*(\S+)")
 _VALUE = re.compile(r"^\s*(Displacement|Waterplane area)[^=]*=\s*(\S+)", re.IGNORECASE)

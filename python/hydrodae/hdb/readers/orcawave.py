@@ -12,12 +12,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.database.coordinates import DOFS, unique_names
+from hydrodae.hdb.database.coordinates import unique_names
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+from hydrodae.hdb.labels import six_of_each
 from hydrodae.hdb.readers.foreign import CONVERTER
 from hydrodae.hdb.readers.formats import Format
 from hydrodae.hdb.readers.orcawave_units import Units, units_of, water_of
@@ -26,9 +26,8 @@ from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
 from hydrodae.hdb.readers.symmetric import mirrored_forces, turned_forces
 from hydrodae.hdb.readers.text import line_of, read_text
 from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.support.arrays import Array, Complex
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 #: Positive senses that agree with right-handed axes, x forward, z up; others change the sign.
 SENSES = {
     "SurgePositive": "forward",
@@ -71,10 +70,6 @@ def _has_tables(path: Path) -> bool:
 def read_orcawave(path: Path) -> SourceData:
     """Read the vessel types of an OrcaFlex data file.
 
-    Parameters
-    ----------
-    path : Path
-
     Returns
     -------
     SourceData
@@ -116,7 +111,7 @@ def read_orcawave(path: Path) -> SourceData:
         text = "vessel types hold no coupling between bodies: each is taken to radiate alone"
         findings.append(Finding("warning", "coordinates", text))
     data = SourceData(
-        coordinates=tuple(f"{name}.{dof}" for name in names for dof in DOFS),
+        coordinates=six_of_each(names),
         omega=omega,
         added_mass=a,
         radiation_damping=b,

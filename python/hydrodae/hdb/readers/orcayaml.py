@@ -35,10 +35,6 @@ _Loader.add_constructor("tag:yaml.org,2002:float", _number)
 def read_yaml(path: Path) -> dict[str, Any]:
     """Read a data file of OrcaFlex or OrcaWave.
 
-    Parameters
-    ----------
-    path : Path
-
     Returns
     -------
     dict

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from hydrodae.hdb.database.coordinates import bodies_of, split_label
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+from hydrodae.hdb.labels import bodies_of
 from hydrodae.hdb.readers.nemoh_hydrostatics import FileHydrostatics
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.relations.dispersion import wavenumber
 
-Array = NDArray[np.float64]
 #: Largest k times size of a body for which the long-wave moment is taken.
 LONGEST = 0.1
 #: Difference of K55, over the size of its parts, that the point found may leave.
@@ -21,7 +19,7 @@ AGREE = 0.03
 
 def without_moments(data: SourceData) -> list[str]:
     """Bodies of which a source holds translations only: their forces do not know a point."""
-    turning = {body for body, dof in map(split_label, data.coordinates) if dof >= 3}
+    turning = {label.body for label in data.labels if label.is_rotation}
     return [name for name in bodies_of(data.coordinates) if name not in turning]
 
 

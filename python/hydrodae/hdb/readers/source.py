@@ -13,10 +13,8 @@ from numpy.typing import NDArray
 from hydrodae.hdb.database.extra import SourceTable
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
-
+from hydrodae.hdb.labels import Label, read_labels
+from hydrodae.support.arrays import Array, Complex
 
 #: What a source holds of each frequency.
 TABLES = ("added_mass", "radiation_damping", "froude_krylov", "diffraction", "excitation")
@@ -95,6 +93,11 @@ class SourceData:
     meshes: dict[str, Array] = field(default_factory=dict)
     extra: dict[str, SourceTable] = field(default_factory=dict)
     mode_stiffness: dict[str, Array] = field(default_factory=dict)
+
+    @property
+    def labels(self) -> list[Label]:
+        """The coordinates, each as its body and its motion."""
+        return read_labels(self.coordinates)
 
     def keep_frequencies(self, kept: NDArray[np.bool_]) -> None:
         """Leave out the frequencies (nw,) that are not kept, in all tables."""

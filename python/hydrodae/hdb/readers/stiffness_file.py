@@ -6,13 +6,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers.text import finite, read_lines, words
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,8 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from hydrodae.support.arrays import Array, Complex
+
 #: Signs of surge, sway, heave, roll, pitch, yaw under the mirrors y -> -y and x -> -x.
 ACROSS = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
 ALONG = np.array([-1.0, 1.0, 1.0, 1.0, -1.0, -1.0])

@@ -11,12 +11,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.readers.text import number, read_lines
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 _NUMERIC = re.compile(r"[+-]?(\d|\.\d|nan\b|inf)|\*{3,}", re.IGNORECASE)
 _VARIABLE = re.compile(r'VARIABLES\s*=\s*"?\s*([A-Za-z]+)\s*\(([^)]*)\)', re.IGNORECASE)

@@ -16,16 +16,15 @@ from collections.abc import Mapping
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.database.coordinates import bodies_of
 from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.labels import bodies_of
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.hdb.relations.noise import scatter
+from hydrodae.support.arrays import Complex
 
-Complex = NDArray[np.complex128]
 #: So many of the lowest frequencies are looked at.
 LONGEST = 10
 #: Force over its noise from which its phase says anything.
@@ -36,11 +35,7 @@ CLEAR = 5.0
 #: and one that is not.
 ADDS_UP, MISSES = 1e-3, 1e-2
 #: The three forces by their words in `--time-convention`.
-PARTS = {
-    "excitation": "excitation",
-    "froude-krylov": "froude_krylov",
-    "diffraction": "diffraction",
-}
+PARTS = {"excitation": "excitation", "froude-krylov": "froude_krylov", "diffraction": "diffraction"}
 #: What may be said of them.
 FORMAT, OTHER = "format", "other"
 

@@ -10,18 +10,12 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.database.coordinates import (
-    DOFS,
-    bodies_of,
-    is_rotation,
-    rigid,
-    unique_names,
-)
+from hydrodae.hdb.database.coordinates import unique_names
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+from hydrodae.hdb.labels import DOFS, bodies_of, read_labels, rigid
 from hydrodae.hdb.readers import wamit_tables as tables
 from hydrodae.hdb.readers.formats import Format
 from hydrodae.hdb.readers.mesh_beside import statics_of_file
@@ -31,9 +25,8 @@ from hydrodae.hdb.readers.wamit_control import Control, beside, mesh_of, read_co
 from hydrodae.hdb.readers.wamit_listing import is_listing, read_listing
 from hydrodae.hdb.readers.wamit_settled import at_infinity, first_column, settled
 from hydrodae.hdb.relations.depth import depth_of_bodies
+from hydrodae.support.arrays import Array, Complex
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 FORCE_ROW = "period, heading, mode, modulus, phase, real and imaginary part"
 SUFFIXES = (".1", ".2", ".3", ".3fk", ".3sc", ".hst", ".pot", ".cfg", ".mmx", ".out", ".frc")
 
@@ -133,7 +126,7 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
         for table in (a, b):
             table.transpose(0, 2, 1)[:, alone] = table[:, alone]
     omega = at[finite]
-    rotation = np.array([is_rotation(label) for label in coordinates])
+    rotation = np.array([label.is_rotation for label in read_labels(coordinates)])
     scale = rho * length ** (3.0 + rotation[:, None] + rotation)
     forces: dict[str, Complex | None] = {}
     heading = np.zeros(0)
@@ -299,12 +292,7 @@ def _forces(
 
 
 def _attach_hydrostatics(
-    data: SourceData,
-    stem: Path,
-    control: Control,
-    names: list[str],
-    length: float,
-    every: Array,
+    data: SourceData, stem: Path, control: Control, names: list[str], length: float, every: Array
 ) -> None:
     """Waterplane from `.hst`, whose K44 and K55 hold the weight too: - m g z_G in body axes."""
     path = beside(stem, ".hst")

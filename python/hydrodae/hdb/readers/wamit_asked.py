@@ -7,16 +7,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.database.coordinates import DOFS
 from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.labels import DOFS
 from hydrodae.hdb.readers.text import NUMBER, number
 from hydrodae.hdb.readers.wamit_tables import to_omega
 from hydrodae.hdb.relations.dispersion import frequency
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: What the first column of the tables may hold, by IPEROUT; IPERIN likewise.
 COLUMNS = {1: "period", 2: "frequency", 3: "wavenumber of deep water", 4: "wavenumber"}
 #: HAMS: 1, 2 wavenumber in deep and finite depth, 3 frequency, 4 period (5 wavelength).

@@ -13,14 +13,12 @@ from dataclasses import dataclass, field
 from pathlib import Path, PureWindowsPath
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.readers.hydrodyn import hydrodyn_of
 from hydrodae.hdb.readers.text import NUMBER, read_lines, read_text, words
 from hydrodae.hdb.readers.wamit_asked import HAMS, Asked, of_hams, steps
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 _NUMBERS = re.compile(NUMBER)
 #: WAMIT prints the density 1 when it was not given one.

@@ -11,12 +11,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.readers.text import NUMBER, number, read_lines
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 #: Of the list of periods that POTEN has solved, with the time of day.
 _SOLVED = re.compile(r"\s*(-?\d+\.\d+)\s+\d\d:\d\d:\d\d\b")
@@ -67,14 +65,6 @@ def is_listing(path: Path) -> bool:
 
 def read_listing(path: Path) -> Listing:
     """Read the tables of added mass, damping and exciting forces.
-
-    Parameters
-    ----------
-    path : Path
-
-    Returns
-    -------
-    Listing
 
     Raises
     ------

@@ -17,8 +17,8 @@ from hydrodae.hdb.readers.wamit_tables import to_omega
 from hydrodae.hdb.relations import infinity
 from hydrodae.hdb.relations.causality import causal_line
 from hydrodae.hdb.relations.dispersion import group_velocity, wavenumber
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Correlation of A with what B implies that is no chance.
 CLEAR = 0.98
 #: Factors between damping and force of heave within which they agree, and that nothing explains.

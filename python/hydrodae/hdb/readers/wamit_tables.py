@@ -17,9 +17,7 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.readers.text import number, read_lines
 from hydrodae.hdb.relations.dispersion import frequency
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from hydrodae.support.arrays import Array
 
 
 def read_rows(path: Path, least: int, most: int, meaning: str) -> tuple[Array, list[int]]:

@@ -7,11 +7,10 @@ the points (-I, A). Where w is stated c times too large, or B c times too small,
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.hdb.relations import irf
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 #: Fewest frequencies, and largest B at the end of the table over its peak, that a verdict needs.
 FEWEST, UNFINISHED = 16, 0.3
 #: Share of the table, and fewest frequencies there, that a slope with a free tail rests on.

@@ -14,12 +14,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
 from hydrodae.hdb.relations.dispersion import group_velocity, wavenumber
+from hydrodae.support.arrays import Array, Complex
 
-Array = NDArray[np.float64]
 #: Depths over the longest deep-water wave that are tried: others change nothing.
 SHALLOWEST, DEEPEST, STEPS = 1e-3, 2.0, 400
 #: Largest rms error of the relation with which a depth is given, and what is added to the least.
@@ -129,7 +128,7 @@ def depth_of_bodies(
     omega: Array,
     radiation_damping: Array,
     heading: Array,
-    excitation: NDArray[np.complex128] | None,
+    excitation: Complex | None,
     rho: float,
     gravity: float,
 ) -> DepthTold | None:

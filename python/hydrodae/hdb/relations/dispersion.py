@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 
-def wavenumber(omega: ArrayLike, depth: float, gravity: float) -> NDArray[np.float64]:
+def wavenumber(omega: ArrayLike, depth: float, gravity: float) -> Array:
     """Wavenumber k [rad/m] of waves of frequency omega [rad/s] in water of depth h [m].
 
     Newton iteration on x tanh x = w^2 h / g, to machine precision; `depth` may be infinite.
@@ -26,7 +26,7 @@ def wavenumber(omega: ArrayLike, depth: float, gravity: float) -> NDArray[np.flo
     return x / depth
 
 
-def frequency(wavenumbers: ArrayLike, depth: float, gravity: float) -> NDArray[np.float64]:
+def frequency(wavenumbers: ArrayLike, depth: float, gravity: float) -> Array:
     """Frequency [rad/s] of waves of the given wavenumbers [rad/m]."""
     k = np.asarray(wavenumbers, dtype=float)
     return np.sqrt(gravity * k * (np.tanh(k * depth) if np.isfinite(depth) else 1.0))

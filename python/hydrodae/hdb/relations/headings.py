@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
+
 #: Two ends of a circle, or two steps, that differ by less are equal [rad].
 SAME = 1e-6
 TURN = 2.0 * np.pi

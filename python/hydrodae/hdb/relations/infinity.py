@@ -17,8 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hydrodae.hdb.relations import irf, tails
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 #: The value is the median of the estimates below this share of w_max.
 LOW_TO = 0.2

@@ -18,13 +18,12 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline, PchipInterpolator
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.relations.tails import fit_tail, no_tail, tail_cosine, tail_kramers_kronig
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array, Complex
 
 BAND_FROM = 0.3  # A_inf: least squares over w > BAND_FROM w_max
 #: Terms of a series for |z| < 1: z^17 / 17! is below rounding.
@@ -261,7 +260,7 @@ def _chunks(rows: int, columns: int, limit: int = 4_000_000) -> list[slice]:
     return [slice(i, min(i + step, rows)) for i in range(0, rows, step)]
 
 
-def _moments(theta: Array) -> list[NDArray[np.complex128]]:
+def _moments(theta: Array) -> list[Complex]:
     """Return int_0^1 u^k e^{i theta u} du, k = 0..3.
 
     The recursion k M_{k-1} = e^z - z M_k, z = i theta, runs forward from M_0 where |theta| > 1.
@@ -289,7 +288,7 @@ def _moments(theta: Array) -> list[NDArray[np.complex128]]:
     return moments
 
 
-def spline_fourier(spline: CubicSpline, t: Array) -> NDArray[np.complex128]:
+def spline_fourier(spline: CubicSpline, t: Array) -> Complex:
     """Return int s(w) e^{iwt} dw over the knots, exact for the piecewise cubic; (nt, m).
 
     Parameters

@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
+
 #: Frequencies at the low end of a table whose scatter is taken.
 LOWEST = 12
 

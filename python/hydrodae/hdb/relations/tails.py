@@ -11,7 +11,7 @@ import numpy as np
 from numpy.polynomial.legendre import leggauss
 from numpy.typing import ArrayLike, NDArray
 
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 TAIL_POWERS = (2.0, 8.0)  # range of n in c w^-n
 TAIL_FROM = 0.7  # the tail is fitted to w > TAIL_FROM w_max
@@ -51,10 +51,6 @@ def fit_tail(omega: ArrayLike, damping: ArrayLike) -> Tail:
         Frequencies [rad/s].
     damping : (nw, m) array
         B(w).
-
-    Returns
-    -------
-    Tail
     """
     w = np.asarray(omega, dtype=float)
     b = np.asarray(damping, dtype=float)

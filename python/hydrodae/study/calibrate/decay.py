@@ -25,8 +25,7 @@ from numpy.typing import NDArray
 from scipy.signal import find_peaks
 
 from hydrodae.errors import CaseError
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 #: Fewest peaks of either sign.
 FEWEST = 4

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from hydrodae.case import Case
@@ -17,8 +16,7 @@ from hydrodae.study.calibrate.parts import Check, Estimate, Residual
 from hydrodae.study.calibrate.records import Record
 from hydrodae.study.calibrate.result import Calibration
 from hydrodae.study.calibrate.statistics import spread, undetermined
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 #: Correlation of two parameters that is reported.
 CORRELATED = 0.95

@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize_scalar
 
@@ -17,8 +16,7 @@ from hydrodae.study.calibrate.parameters import Unknown, spelled
 from hydrodae.study.calibrate.records import Record, series_of
 from hydrodae.study.gradient.differences import derivative
 from hydrodae.study.gradient.parameters import values_of
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 #: Step of the differences of a search over the scale of a parameter.
 STEP = 1e-3

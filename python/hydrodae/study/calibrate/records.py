@@ -9,15 +9,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.records import clock
 from hydrodae.records.table import Table, read_table
 from hydrodae.results import Results
 from hydrodae.support import outputs
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 #: Fewest samples of a record that is fitted.
 FEWEST = 10

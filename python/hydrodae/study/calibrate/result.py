@@ -10,16 +10,14 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from hydrodae.case import Case
 from hydrodae.study.calibrate.decay import Decay
 from hydrodae.study.calibrate.parts import Check, Estimate, Residual
 from hydrodae.study.calibrate.picture import draw
 from hydrodae.study.calibrate.writing import write_case
+from hydrodae.support.arrays import Array
 from hydrodae.support.units import displayed
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -21,10 +21,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import stdtrit
 
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 #: Largest order of the autoregressive models.
 ORDER = 24

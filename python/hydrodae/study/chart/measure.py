@@ -113,11 +113,7 @@ def chart(
 
 
 def recommend(
-    case: CaseLike,
-    error: float,
-    *,
-    methods: Sequence[str] = SHORT_METHODS,
-    **options: Any,
+    case: CaseLike, error: float, *, methods: Sequence[str] = SHORT_METHODS, **options: Any
 ) -> Recommendation:
     """Find the cheapest method and tolerance that meet an error, from a short chart.
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.case import Case
 from hydrodae.case.case import CaseLike, read_case
@@ -19,10 +18,10 @@ from hydrodae.study.gradient.parameters import Parameter, read_parameter, values
 from hydrodae.study.gradient.quantity import Found, Quantity, quantity
 from hydrodae.study.gradient.runs import run_gradient
 from hydrodae.study.gradient.spectral import spectral_gradient
+from hydrodae.support.arrays import Array
 
 __all__ = ["Gradient", "Objective", "gradient", "objective"]
 
-Array = NDArray[np.float64]
 Keys = str | Sequence[str]
 
 RUNGS: dict[str, Callable[[Case, Quantity, Sequence[Parameter]], Found]] = {

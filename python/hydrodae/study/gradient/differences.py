@@ -6,9 +6,9 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
+from hydrodae.support.arrays import Array
 
 Arrays = dict[str, Any]
 
@@ -126,7 +126,7 @@ def _is_affine(three: list[Mapping[str, Any]]) -> bool:
     )
 
 
-def _weights(nodes: tuple[int, ...]) -> NDArray[np.float64]:
+def _weights(nodes: tuple[int, ...]) -> Array:
     """Weights of the first derivative, exact for polynomials of the degree len(nodes) - 1."""
     powers = np.vander(np.array(nodes, dtype=float), increasing=True).T
     return np.asarray(np.linalg.solve(powers, np.eye(len(nodes))[1]))

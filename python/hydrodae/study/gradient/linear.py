@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.case import Case
 from hydrodae.errors import CaseError
@@ -17,9 +16,7 @@ from hydrodae.study.gradient.differences import derivative
 from hydrodae.study.gradient.parameters import Parameter
 from hydrodae.study.gradient.quantity import Found, Quantity
 from hydrodae.study.sweep.rungs import linear_name, unit_of
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from hydrodae.support.arrays import Array, Complex
 
 
 def linear_gradient(case: Case, what: Quantity, parameters: Sequence[Parameter]) -> Found:

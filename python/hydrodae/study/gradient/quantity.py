@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from hydrodae.case import Case
 from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError
 from hydrodae.study.sweep.measures import Measure
+from hydrodae.support.arrays import Array
 
 POWER = "mean_power_absorbed"
 
@@ -76,7 +74,7 @@ class Found:
     """
 
     value: float
-    gradient: NDArray[np.float64]
+    gradient: Array
     affine: tuple[bool, ...]
     calls: int
     unit: str

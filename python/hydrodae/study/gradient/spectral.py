@@ -18,7 +18,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse.linalg import LinearOperator, gmres
 
 from hydrodae.case import Case
@@ -33,9 +32,8 @@ from hydrodae.study.gradient.quantity import Found, Quantity
 from hydrodae.study.spectral.linearise import nonlinear_loads
 from hydrodae.study.spectral.loads import AlongJoint, Load
 from hydrodae.study.spectral.solve import equivalents, motion_of, water_velocity
+from hydrodae.support.arrays import Array, Complex
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 Arrays = dict[str, Any]
 
 #: Change of the equivalents that ends their iteration, and of the linear system for their slopes.

@@ -4,27 +4,30 @@ from __future__ import annotations
 
 import csv
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.linear import Response
 from hydrodae.study.rao.text import NOTHING, coordinates, short_name
 from hydrodae.support import outputs
+from hydrodae.support.arrays import Array
 from hydrodae.support.units import displayed
 
 if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 
 #: Endings of the files that `write` knows.
 CSV, NETCDF = (".csv",), (".nc", ".h5", ".hdf5")
+CONVENTION = (
+    "x(t) = Re(X e^{+i omega t}) per metre of wave amplitude; the phase of the wave is zero at the "
+    "origin"
+)
 #: What the picture shows, s: longer waves carry little.
 LONGEST_PERIOD = 25.0
 
@@ -37,11 +40,20 @@ def write(path: str | os.PathLike[str], response: Response) -> Path:
     CaseError
         Another ending, or a file of another kind is there.
     """
+    return write_either(path, lambda file: _write_csv(file, response), lambda: dataset(response))
+
+
+def write_either(
+    path: str | os.PathLike[str],
+    write_csv: Callable[[Path], None],
+    data: Callable[[], xarray.Dataset],
+) -> Path:
+    """Write CSV or netCDF, as the ending says, and return the path; errors as `check_output`."""
     path = check_output(path)
     if path.suffix.lower() in CSV:
-        _write_csv(path, response)
+        write_csv(path)
     else:
-        dataset(response).to_netcdf(path, engine="netcdf4", invalid_netcdf=False)
+        data().to_netcdf(path, engine="netcdf4", invalid_netcdf=False)
     return path
 
 
@@ -94,11 +106,7 @@ def dataset(response: Response) -> xarray.Dataset:
     return xarray.Dataset(
         variables,
         coords,
-        {
-            "heading_deg": float(np.degrees(response.heading)),
-            "convention": "x(t) = Re(X e^{+i omega t}) per metre of wave amplitude; the phase of "
-            "the wave is zero at the origin",
-        },
+        {"heading_deg": float(np.degrees(response.heading)), "convention": CONVENTION},
     )
 
 

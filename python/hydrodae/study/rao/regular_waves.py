@@ -10,15 +10,13 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.case import Case
 from hydrodae.case.case import parse_assignment
 from hydrodae.errors import CaseError
 from hydrodae.simulation import run
 from hydrodae.support import processes
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 RAMP_PERIODS, FITTED_PERIODS, SAMPLES = 10, 5, 40
 

@@ -9,18 +9,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from hydrodae.case.case import CaseLike, read_case
+from hydrodae.case.case import CaseLike
 from hydrodae.errors import CaseError
 from hydrodae.linear import LinearModel, Mode, Response
 from hydrodae.study.rao import output, text
 from hydrodae.study.rao.regular_waves import Harmonic, time_domain
+from hydrodae.support.arrays import Array
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 
 FREQUENCIES = 400
 
@@ -196,12 +195,7 @@ def rao(
     >>> found = rao("cases/f3of/flap_decay.toml", periods=[8.0, 12.0])  # doctest: +SKIP
     >>> found.chosen["joints/hinge1/angle"]  # doctest: +SKIP
     """
-    if isinstance(case, LinearModel):
-        if set:
-            raise TypeError("`set` needs a case: the model was linearised without it")
-        model = case
-    else:
-        model = LinearModel(read_case(case, set))
+    model = LinearModel.of(case, set)
     if not np.isfinite(heading):
         raise CaseError(f"heading {heading:g}: expected a direction of travel")
     chosen = model.response(_chosen(model, periods), heading)

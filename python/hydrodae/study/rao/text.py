@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.linear import Mode, Response
 from hydrodae.study.rao.regular_waves import Harmonic
+from hydrodae.support.arrays import Array
 from hydrodae.support.units import displayed
-
-Array = NDArray[np.float64]
 
 #: A coordinate that moves less than this share of the largest of its unit is not listed.
 NOTHING = 1e-9

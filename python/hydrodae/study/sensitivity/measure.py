@@ -7,14 +7,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.case.case import CaseLike, read_case
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.linear import LinearModel
 from hydrodae.study.sensitivity.variants import variants
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 Values = dict[str, float]
 
 

@@ -15,11 +15,11 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.kernels import memory_length
 from hydrodae.hdb.relations import irf
+from hydrodae.support.arrays import Array, Complex
 
 if TYPE_CHECKING:
     from hydrodae.hdb.memory import ExponentialMemory
 
-Array = NDArray[np.float64]
 STEPS, RANGES, LENGTHS = (2, 4), (0.75, 0.5), (1.0, 0.5, 0.25, 0.125)
 
 
@@ -96,7 +96,7 @@ def variants(
         yield "no coupling of bodies", database.without_coupling()
 
 
-def _fourier(time: Array, values: Array, omega: Array) -> NDArray[np.complex128]:
+def _fourier(time: Array, values: Array, omega: Array) -> Complex:
     """Return int_0^T f(t) e^{-iwt} dt, (nw, m), of the cubic spline of f, integrated exactly."""
     spline = CubicSpline(time, values)
     z = -1j * omega
@@ -115,11 +115,4 @@ def _fourier(time: Array, values: Array, omega: Array) -> NDArray[np.complex128]
 def _kept(database: HydroDatabase, keep: NDArray[np.bool_]) -> HydroDatabase:
     if keep.sum() < 4:
         raise DatabaseError("fewer than 4 frequencies would be left")
-    return replace(
-        database,
-        omega=database.omega[keep],
-        added_mass=database.added_mass[keep],
-        radiation_damping=database.radiation_damping[keep],
-        froude_krylov=database.froude_krylov[keep],
-        diffraction=database.diffraction[keep],
-    )
+    return database.at_frequencies(keep)

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.linear import LinearModel
@@ -14,8 +13,8 @@ from hydrodae.linear.bodies import Bodies
 from hydrodae.study.spectral.factors import Law
 from hydrodae.study.spectral.laws import law_of
 from hydrodae.study.spectral.loads import AlongJoint, Load, by_components, drag
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 Table = Mapping[str, Any]
 
 

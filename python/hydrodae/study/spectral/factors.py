@@ -20,10 +20,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from hydrodae.support.arrays import Array, Complex
 
 #: Laws of one rate: load against the motion [N, N m] over the rate [m/s, rad/s].
 Law = Callable[[Array], Array]

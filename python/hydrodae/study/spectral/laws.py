@@ -10,13 +10,12 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 
 from hydrodae.errors import CaseError
 from hydrodae.study.spectral.factors import Law
+from hydrodae.support.arrays import Array
 
-Array = NDArray[np.float64]
 Table = Mapping[str, Any]
 
 

@@ -10,18 +10,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from hydrodae.study.spectral.factors import (
-    Law,
-    gauss_drag,
-    gauss_law,
-    lorentz_drag,
-    lorentz_law,
-)
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from hydrodae.study.spectral.factors import Law, gauss_drag, gauss_law, lorentz_drag, lorentz_law
+from hydrodae.support.arrays import Array, Complex
 
 #: A rate below this share of that without the law: friction that holds its joint.
 STUCK = 1e-6

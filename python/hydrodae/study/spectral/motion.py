@@ -12,26 +12,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.case.case import CaseLike, read_case
+from hydrodae.case.case import CaseLike
 from hydrodae.errors import CaseError
 from hydrodae.linear import LinearModel, Response
 from hydrodae.linear.sea import in_waves, wave_components
 from hydrodae.study.spectral import text
-from hydrodae.study.spectral.linearise import (
-    all_notes,
-    dampings,
-    mean_powers,
-    nonlinear_loads,
-)
+from hydrodae.study.spectral.linearise import all_notes, dampings, mean_powers, nonlinear_loads
 from hydrodae.study.spectral.output import write
 from hydrodae.study.spectral.seeds import Seeds, comparison, time_domain
 from hydrodae.study.spectral.solve import equivalents
+from hydrodae.support.arrays import Array, Complex
 
 if TYPE_CHECKING:
     import xarray
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)
@@ -239,12 +232,7 @@ def spectral(
         raise CaseError(
             f"tolerance = {tolerance:g}, iterations = {iterations}: expected numbers > 0"
         )
-    if isinstance(case, LinearModel):
-        if set:
-            raise TypeError("`set` needs a case: the model was linearised without it")
-        model = case
-    else:
-        model = LinearModel(read_case(case, set))
+    model = LinearModel.of(case, set)
     loads, model = nonlinear_loads(model)
     start = perf_counter()
     waves = wave_components(model.case)

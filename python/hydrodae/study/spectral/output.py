@@ -8,15 +8,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
-from hydrodae.study.rao.output import CSV, check_output
+from hydrodae.study.rao.output import CONVENTION, write_either
+from hydrodae.support.arrays import Array, Complex
 
 if TYPE_CHECKING:
     import xarray
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 class Found(Protocol):
@@ -40,12 +37,7 @@ def write(path: str | os.PathLike[str], found: Any) -> Path:
     CaseError
         Another ending, or a file of another kind is there.
     """
-    path = check_output(path)
-    if path.suffix.lower() in CSV:
-        _write_csv(path, found)
-    else:
-        dataset(found).to_netcdf(path, engine="netcdf4", invalid_netcdf=False)
-    return path
+    return write_either(path, lambda file: _write_csv(file, found), lambda: dataset(found))
 
 
 def dataset(found: Any) -> xarray.Dataset:
@@ -71,11 +63,7 @@ def dataset(found: Any) -> xarray.Dataset:
             "unit": ("response", [unit.removesuffix("/m") for unit in found.units]),
             "force": forces,
         },
-        {
-            "iterations": found.iterations,
-            "convention": "x(t) = Re(X e^{+i omega t}) per metre of wave amplitude; the phase of "
-            "the wave is zero at the origin",
-        },
+        {"iterations": found.iterations, "convention": CONVENTION},
     )
 
 

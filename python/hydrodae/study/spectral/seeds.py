@@ -14,12 +14,11 @@ import numpy as np
 from hydrodae.case import Case
 from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError
+from hydrodae.hdb.labels import DOFS
 from hydrodae.results import Results
 from hydrodae.simulation import run
 from hydrodae.support import processes
 from hydrodae.support.units import displayed
-
-DOFS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 
 
 @dataclass(frozen=True)

@@ -5,16 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.linear import LinearModel
 from hydrodae.linear.kinematics import water_motion
 from hydrodae.study.spectral.fixed_point import Mixing
 from hydrodae.study.spectral.loads import Load, Motion
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from hydrodae.support.arrays import Array, Complex
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,8 @@ import numpy as np
 
 from hydrodae.results import Results
 from hydrodae.study.stability import truths
-from hydrodae.study.stability.scene import SMALLEST, Array, Scene
+from hydrodae.study.stability.scene import SMALLEST, Scene
+from hydrodae.support.arrays import Array
 
 Table = dict[str, Any]
 DOWN_Y = [0.0, -1.0, 0.0]
@@ -30,10 +31,7 @@ def _bar(name: str, middle: tuple[float, float], speed: tuple[float, float], spi
         "mass": 1.0,
         "center_of_gravity": [middle[0], 0.0, middle[1]],
         "inertia": [length**2 / 12.0] * 3,
-        "initial": {
-            "velocity": [speed[0], 0.0, speed[1]],
-            "angular_velocity": [0.0, spin, 0.0],
-        },
+        "initial": {"velocity": [speed[0], 0.0, speed[1]], "angular_velocity": [0.0, spin, 0.0]},
     }
 
 

@@ -10,7 +10,8 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from hydrodae.study.stability import truths, water
-from hydrodae.study.stability.scene import Array, Scene
+from hydrodae.study.stability.scene import Scene
+from hydrodae.support.arrays import Array
 
 MASS, STIFFNESS, DAMPING, DELAY, START = 2.0, 8.0, 0.4, 0.7, 0.3
 RESIDUE = 800.0  #: kernel of the float: RESIDUE exp(-t) [N/m]
@@ -91,9 +92,7 @@ def late_damper(time: Array) -> Array:
 
 
 def _float(name: str, title: str, length: float, **how: Any) -> Scene:
-    tables = water.float_tables() | {
-        "hydro": {"radiation": "convolution", "memory_length": length},
-    }
+    tables = water.float_tables() | {"hydro": {"radiation": "convolution", "memory_length": length}}
     return Scene(name, title, tables, 1.0, 0.5, database=_write, **how)
 
 

@@ -20,15 +20,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.case import Case
 from hydrodae.case.callbacks.controllers import Controller
 from hydrodae.case.callbacks.drives import Drive
 from hydrodae.case.case import to_toml
 from hydrodae.results import Results
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 #: Smallest allowance, of the size of the motion.
 SMALLEST = 1e-3

@@ -74,8 +74,7 @@ def tables(cells: Sequence[Cell], width: int) -> list[Table]:
         for scene in scenes:
             row = [found.get((scene, method)) for method in block]
             shown.add_row(
-                scene,
-                *(Text(label(c), style=STYLES[c.outcome]) if c else Text() for c in row),
+                scene, *(Text(label(c), style=STYLES[c.outcome]) if c else Text() for c in row)
             )
         made.append(shown)
     made[0].title = "Methods against hard scenes"
@@ -110,11 +109,7 @@ def write_json(cells: Sequence[Cell], path: str | Path) -> None:
 
 
 def write_picture(
-    cells: Sequence[Cell],
-    path: str | Path,
-    *,
-    panels: int = 1,
-    text: Callable[[Cell], str] = label,
+    cells: Sequence[Cell], path: str | Path, *, panels: int = 1, text: Callable[[Cell], str] = label
 ) -> None:
     """Draw the map as a coloured grid.
 

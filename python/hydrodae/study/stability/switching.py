@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from hydrodae.results import Results
-from hydrodae.study.stability.scene import Array, Scene
+from hydrodae.study.stability.scene import Scene
+from hydrodae.support.arrays import Array
 
 GRAVITY = 9.81
 START_SPEED_2 = 3.5 * GRAVITY  #: square of the speed of the bob at the bottom [m2/s2]
@@ -61,7 +61,7 @@ def bob_on_a_rope(time: Array) -> Array:
     out = np.empty((len(time), 2))
     start, state = 0.0, np.array([0.0, np.sqrt(START_SPEED_2)])
 
-    def slack(_: float, y: NDArray[np.float64]) -> float:
+    def slack(_: float, y: Array) -> float:
         return float(y[1] ** 2 + GRAVITY * np.cos(y[0]))
 
     slack.terminal, slack.direction = True, -1.0  # type: ignore[attr-defined]

@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
+
 GRAVITY = 9.81
 
 #: End of rod 3 of the Bricard mechanism every 0.5 s [m]: DOP853 in relative angles with the speed
@@ -156,9 +156,7 @@ def _buoy_pendulum(_t: float, s: Array) -> Array:
 
 
 mass_ratio = integrated(
-    _buoy_pendulum,
-    [1.0, 0.0, 0.0, 0.0],
-    lambda s: [s[0] + np.sin(s[1]), -np.cos(s[1])],
+    _buoy_pendulum, [1.0, 0.0, 0.0, 0.0], lambda s: [s[0] + np.sin(s[1]), -np.cos(s[1])]
 )
 
 

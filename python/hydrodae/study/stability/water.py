@@ -14,7 +14,8 @@ import numpy as np
 
 from hydrodae.results import Results
 from hydrodae.study.stability import truths
-from hydrodae.study.stability.scene import Array, Scene
+from hydrodae.study.stability.scene import Scene
+from hydrodae.support.arrays import Array
 
 MASS, ADDED_MASS, STIFFNESS, POLE = 1000.0, 500.0, 6000.0, -1.0
 LABEL = "float.heave"

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from hydrodae.errors import CaseError
+from hydrodae.support.arrays import Array
 from hydrodae.support.extras import install_command
 
 
@@ -20,7 +18,7 @@ def require_rainflow() -> None:
 
 
 def damage_equivalent_load(
-    values: NDArray[np.float64], duration: float, exponent: float, frequency: float
+    values: Array, duration: float, exponent: float, frequency: float
 ) -> float:
     """Range of the load that harms as much as a series, at a fixed frequency.
 

@@ -11,14 +11,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.results import Results
 from hydrodae.results.sampling import INTERVALS, NONE, Interval
 from hydrodae.study.sweep.fatigue import damage_equivalent_load, require_rainflow
-
-Array = NDArray[np.float64]
+from hydrodae.support.arrays import Array
 
 #: Numbers of a series of samples.
 STATISTICS: dict[str, Callable[[Array], float]] = {

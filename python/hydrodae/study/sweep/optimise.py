@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import OptimizeResult, minimize
 
 from hydrodae.case import Case
@@ -20,12 +19,11 @@ from hydrodae.study.sweep.plan import point_key
 from hydrodae.study.sweep.problem import METHODS, Problem, read_problem
 from hydrodae.study.sweep.rungs import open_case
 from hydrodae.study.sweep.table import claim, texts_of, write
+from hydrodae.support.arrays import Array
 from hydrodae.support.version import version
 
 if TYPE_CHECKING:
     import xarray
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,6 @@ from hydrodae.support import outputs
 if TYPE_CHECKING:
     import xarray as xr
 
-HOURS_A_YEAR = 8766.0
 #: Of netCDF files.
 ENDINGS = (".nc", ".nc4", ".netcdf", ".cdf")
 
