@@ -25,7 +25,7 @@
 #include <Eigen/Dense>
 
 #include "costs.h"
-#include "hydrodae/integrate/explicit_tableaux.h"
+#include "hydrodae/integrate/dormand_prince_8.h"
 
 namespace {
 

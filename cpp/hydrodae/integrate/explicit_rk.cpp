@@ -7,9 +7,11 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/integrate/body_space.h"
-#include "hydrodae/integrate/explicit_tableaux.h"
+#include "hydrodae/integrate/dormand_prince_5.h"
+#include "hydrodae/integrate/dormand_prince_8.h"
 #include "hydrodae/integrate/stiffness.h"
 #include "hydrodae/system/mechanisms.h"
+#include "hydrodae/system/retract.h"
 #include "hydrodae/tree/joint_space.h"
 
 namespace hydrodae::integrate {
@@ -72,13 +74,12 @@ private:
   void set_stage(const VectorX& start, double h, int stages, std::span<const double> a);
   bool try_step(double h);
   bool find_end(double h);
-  void combine(double h, std::span<const double> weights);
+  void add_rates(double h, std::span<const double> weights);
   double error(double h);
   bool is_smooth(double h);
   double longest_at_rest(double err);
   void extend();
   void follow_polynomial(double x);
-  void normalise(VectorX& y) const;
   [[noreturn]] void fail(Reason reason, const std::string& what);
 
   const Pair& pair_;
@@ -117,9 +118,15 @@ template <class Space>
 void ExplicitRk<Space>::set_stage(const VectorX& start, double h, int stages,
                                   std::span<const double> a) {
   stage_.head(n_) = start.head(n_);
-  for (int j = 0; j < stages; ++j)
-    if (a[j] != 0.0)
-      stage_.head(n_) += h * a[j] * k_.col(j);
+  add_rates(h, a.first(static_cast<std::size_t>(stages)));
+}
+
+/// stage_ += h sum_j weights_j k_j
+template <class Space>
+void ExplicitRk<Space>::add_rates(double h, std::span<const double> weights) {
+  for (std::size_t j = 0; j < weights.size(); ++j)
+    if (weights[j] != 0.0)
+      stage_.head(n_) += h * weights[j] * k_.col(static_cast<Index>(j));
 }
 
 template <class Space> bool ExplicitRk<Space>::try_step(double h) {
@@ -145,31 +152,19 @@ template <class Space> bool ExplicitRk<Space>::find_end(double h) {
   return true;
 }
 
-/// stage_ = h sum_j weights_j k_j
-template <class Space> void ExplicitRk<Space>::combine(double h, std::span<const double> weights) {
-  stage_.setZero();
-  for (std::size_t j = 0; j < weights.size(); ++j)
-    if (weights[j] != 0.0)
-      stage_.head(n_) += h * weights[j] * k_.col(static_cast<Index>(j));
-}
-
-/// Of the two estimates of the method of order 8 (Hairer, Norsett and Wanner, section II.10).
-double of_order_8(double five, double three) {
-  const double size = std::hypot(five, 0.1 * three);
-  return size > 0.0 ? five * five / size : 0.0;
-}
-
-/// Local error in units of the tolerance.
+/// Local error in units of the tolerance. Of the two estimates of the method of order 8: Hairer,
+/// Norsett and Wanner, section II.10.
 template <class Space> double ExplicitRk<Space>::error(double h) {
   e_.weights(y_, w_);
   auto size = [&](std::span<const double> weights) {
-    combine(h, weights);
+    stage_.setZero();
+    add_rates(h, weights);
     return e_.norm(w_, space_.of_bodies(x_, stage_));
   };
   if (pair_.order == 5)
     return size(tableaux::rk5_e);
-  const double five = size(tableaux::rk8_e5);
-  return of_order_8(five, size(tableaux::rk8_e3));
+  const double five = size(tableaux::rk8_e5), both = std::hypot(five, 0.1 * size(tableaux::rk8_e3));
+  return both > 0.0 ? five * five / both : 0.0;
 }
 
 /// Do the accelerations at the end of the step agree with those of the last stage, which lies there
@@ -222,12 +217,15 @@ template <class Space> double ExplicitRk<Space>::step(double end, double bound) 
     if (h < 1e-13 * std::max(std::abs(t_), e_.time_scale()) && h < left)
       fail(Reason::step, failed ? "the local error stays too large however short the step"
                                 : "the step has become too short");
+    const auto shorten = [&](long& failures, double part) {
+      ++failures;
+      h_ = part * h;
+      failed = true;
+    };
     if (!try_step(h)) {
-      ++e_.statistics.convergence_failures;
       if (fixed_)
         fail(Reason::not_finite, "no finite accelerations within the step");
-      h_ = 0.25 * h;
-      failed = true;
+      shorten(e_.statistics.convergence_failures, 0.25);
       continue;
     }
     const double err = fixed_ ? 0.0 : error(h);
@@ -235,21 +233,12 @@ template <class Space> double ExplicitRk<Space>::step(double end, double bound) 
     if (good && !(space_.project(t_ + h, trial_) && find_end(h))) {
       if (fixed_)
         fail(Reason::drift, "the constraints cannot be met at the end of the step");
-      ++e_.statistics.convergence_failures;
-      h_ = 0.25 * h;
-      failed = true;
+      shorten(e_.statistics.convergence_failures, 0.25);
       continue;
     }
-    if (good && !fixed_ && !is_smooth(h)) {
-      ++e_.statistics.error_test_failures;
-      h_ = 0.25 * h;
-      failed = true;
-      continue;
-    }
-    if (!good) {
-      ++e_.statistics.error_test_failures;
-      h_ = h * (std::isfinite(err) ? std::max(least, safety * std::pow(err, -power)) : least);
-      failed = true;
+    if (const bool rough = good && !fixed_ && !is_smooth(h); !good || rough) {
+      const double kept = std::isfinite(err) ? safety * std::pow(err, -power) : least;
+      shorten(e_.statistics.error_test_failures, rough ? 0.25 : std::max(least, kept));
       continue;
     }
     x0_ = x_;
@@ -365,15 +354,8 @@ template <class Space> double ExplicitRk<Space>::stage(std::size_t i, VectorX& y
   yp = yp_;
   y.head(n_) = stage_.head(n_);
   yp.head(n_) = k_.col(static_cast<Index>(i));
-  normalise(y);
+  system::normalise(e_.system, y);
   return t0_ + pair_.c[i] * done_;
-}
-
-/// Quaternions of free bodies.
-template <class Space> void ExplicitRk<Space>::normalise(VectorX& y) const {
-  for (const system::BodyData& b : e_.system.bodies)
-    if (b.rotation == system::BodyData::Rotation::free)
-      y.segment<4>(b.q0 + b.n_translations).normalize();
 }
 
 template <class Space> void ExplicitRk<Space>::follow_motion(double t, VectorX& y, VectorX& yp) {
@@ -384,7 +366,7 @@ template <class Space> void ExplicitRk<Space>::follow_motion(double t, VectorX& 
   yp = yp_;
   y.head(n_) = inside_.head(n_);
   yp.head(n_) = inside_xp_.head(n_);
-  normalise(y);
+  system::normalise(e_.system, y);
 }
 
 template <class Space> void ExplicitRk<Space>::interpolate(double t, VectorX& y, VectorX& yp) {
@@ -398,7 +380,7 @@ template <class Space> void ExplicitRk<Space>::interpolate(double t, VectorX& y,
   if (!space_.rates(t, inside_, inside_xp_) || !space_.close(t, inside_, inside_xp_) ||
       !space_.leave(t, inside_, inside_xp_, y, yp))
     fail(Reason::not_finite, "no finite accelerations inside the step");
-  normalise(y);
+  system::normalise(e_.system, y);
 }
 
 } // namespace

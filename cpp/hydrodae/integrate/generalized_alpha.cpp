@@ -219,9 +219,7 @@ void GeneralizedAlpha::interpolate(double t, VectorX& y, VectorX& yp) {
   y = v * y0_ + x * y_;
   y.head(n) += h * x * v * (v * (yp0_ - slope) - x * (yp_ - slope)).head(n);
   yp = v * yp0_ + x * yp_;
-  for (const system::BodyData& b : s_.bodies)
-    if (b.rotation == system::BodyData::Rotation::free)
-      y.segment<4>(b.q0 + b.n_translations).normalize();
+  system::normalise(s_, y);
 }
 
 } // namespace

@@ -161,7 +161,7 @@ bool SaddlePoint::press(double t, const VectorX& y, VectorX& yp) {
                              p.ws.state.elements[p.laws[k].list]);
     rhs_.setZero();
     p.add_along(s_, k, 1.0, rhs_);
-    solve(x_);
+    matrix_.solve(rhs_, x_);
     p.columns.col(static_cast<Index>(k)) = x_;
   }
   for (std::size_t k = 0; k < p.laws.size(); ++k) {

@@ -4,20 +4,14 @@
 ///   [ M   G^T ] [  u'     ]   [ f                ]
 ///   [ G   -eD ] [ -lambda ] = [ -gamma (+ drive) ]
 ///
-/// D is diag(G M^-1 G^T) with the masses of the heaviest body of each mechanism, e tiny. It only
-/// keeps the matrix regular where rows depend on each other (singular poses); refinement against e
-/// = 0 (the proximal iteration of Bayo and Ledesma, Nonlinear Dynamics 9 (1996) 113) takes its
-/// effect out again and tends to the minimum-norm reactions.
-///
 /// Friction that the reactions press is found after that (pressed_friction.cpp).
 
 #include <memory>
 #include <string>
 #include <string_view>
 
-#include "hydrodae/linalg/block_factor.h"
 #include "hydrodae/linalg/equations.h"
-#include "hydrodae/linalg/klu.h"
+#include "hydrodae/linalg/saddle_matrix.h"
 
 namespace hydrodae::linalg {
 
@@ -41,17 +35,19 @@ public:
   const std::string& jam() const { return jam_; }
 
   /// What the last `accelerations` left of the equations, relative to the loads [-].
-  double mismatch();
+  double mismatch() { return matrix_.mismatch(rhs_, x_); }
 
   /// A direction of u (n_u,) that has no inertia and that no row of the last matrix holds. Empty:
   /// no body has one.
-  VectorX undetermined() const;
+  VectorX undetermined() const { return matrix_.undetermined(); }
 
   /// Smallest eigenvalue of G M^-1 G^T against its diagonal [-], with the matrix of the last
   /// `accelerations`: 1 for rows that do not feel each other, 0 in a singular pose. Of each part of
   /// the rows by itself: rows of different parts have no body in common.
   /// @param part of each row (n_lambda,), below `parts`
-  VectorX independence(const std::vector<int>& part, int parts);
+  VectorX independence(const std::vector<int>& part, int parts) {
+    return matrix_.independence(part, parts);
+  }
 
   /// What impulses do, those of friction that its joint presses among them.
   struct Strike {
@@ -79,55 +75,17 @@ public:
   void close(double t, VectorX& y);
 
 private:
-  static constexpr double converged = 1e-13; ///< residual, relative to the right-hand side
-
   struct Pressed;
-  struct Heaviest { ///< of one mechanism
-    double mass = 0.0, inertia = 0.0;
-  };
-  struct RowSums { ///< sums of G_ik^2 over translations and over rotations, and of G_ik^2 / M_kk
-    double shift = 0.0, turn = 0.0, yields = 0.0;
-    std::size_t mechanism = 0;
-  };
-  std::vector<VectorX> massless_directions() const;
-  void find_heaviest();
-  RowSums sums_of(Index i) const;
   bool press(double t, const VectorX& y, VectorX& yp);
   void fill(double t, const VectorX& y);
-  bool factorise();
-  bool factorise_sparse();
-  void find_blocks();
-  void solve_factored(double* v) { in_blocks_ ? blocks_->solve(v) : lu_->solve(v); }
   double gaps();
-  void solve(VectorX& x, double accuracy = converged);
-  void multiply(const VectorX& x, VectorX& out) const;
-
-  struct Entry {
-    Index from = 0;                    ///< in the Jacobian
-    Index slot = 0;                    ///< in the matrix
-    bool rate = false, turned = false; ///< from dF/dy'; with the sign changed
-  };
 
   Equations& e_;
   const system::Regime& s_;
   system::Pattern pattern_;     ///< of what accelerations need
   system::JacobianParts parts_; ///< on it
-  Index n_ = 0;                 ///< n_u + n_lambda
-  std::vector<Index> start_, row_;
-  std::vector<Entry> entries_;
-  std::vector<Index> diagonal_;          ///< slots of eD
-  std::vector<Index> mass_;              ///< slots of the diagonal of M
-  std::vector<double> plain_;            ///< values with e = 0
-  VectorX metric_, damping_;             ///< (n_lambda,) D, eD
-  std::vector<std::size_t> mechanism_;   ///< (n_u,)
-  std::vector<bool> turns_;              ///< (n_u,) angular velocities
-  std::vector<Heaviest> heaviest_;       ///< by mechanism
-  std::unique_ptr<SparseLu<double>> lu_; ///< made when first needed
-  std::unique_ptr<BlockFactor> blocks_;  ///< null: `lu_` is cheaper
-  bool in_blocks_ = false;               ///< the last factors
-  bool chosen_ = false;                  ///< between the two
-  bool old_pivots_ = false;              ///< those of a matrix before, which nobody has looked at
-  VectorX residual_, rhs_, x_, r_, yp0_;
+  SaddleMatrix matrix_;
+  VectorX residual_, rhs_, x_, yp0_;
   std::unique_ptr<Pressed> pressed_; ///< null: no friction is pressed by its joint
   std::string jam_;
 };

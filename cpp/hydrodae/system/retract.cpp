@@ -19,4 +19,10 @@ void retract(const System& s, const VectorX& step, VectorX& y) {
   }
 }
 
+void normalise(const System& s, VectorX& y) {
+  for (const BodyData& b : s.bodies)
+    if (b.rotation == BodyData::Rotation::free)
+      y.segment<4>(b.q0 + b.n_translations).normalize();
+}
+
 } // namespace hydrodae::system

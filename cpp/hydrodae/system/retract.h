@@ -7,4 +7,7 @@ namespace hydrodae::system {
 /// quaternions turn by exp(step), angles and translations add. Other unknowns stay.
 void retract(const System& system, const VectorX& step, VectorX& y);
 
+/// The quaternions of free bodies made unit ones.
+void normalise(const System& system, VectorX& y);
+
 } // namespace hydrodae::system

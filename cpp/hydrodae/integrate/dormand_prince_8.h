@@ -1,92 +1,9 @@
 #pragma once
-/// Coefficients of the explicit Runge-Kutta pairs.
-///
-/// order 5(4): Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19, with the interpolant of
-/// Shampine, Math. Comp. 46 (1986) 135. Order 8(5,3): Hairer, Norsett and Wanner, Solving Ordinary
-/// Differential Equations I (1993), section II.10, with their interpolant of order 7.
+/// Coefficients of the explicit Runge-Kutta pair of order 8(5,3): Hairer, Norsett and Wanner,
+/// Solving Ordinary Differential Equations I (1993), section II.10, with their interpolant of
+/// order 7.
 
 namespace hydrodae::integrate::tableaux {
-
-/// (6, 6) stages, row by row
-inline constexpr double rk5_a[] = {0.0,
-                                   0.0,
-                                   0.0,
-                                   0.0,
-                                   0.0,
-                                   0.0,
-                                   0.2,
-                                   0.0,
-                                   0.0,
-                                   0.0,
-                                   0.0,
-                                   0.0,
-                                   0.075,
-                                   0.225,
-                                   0.0,
-                                   0.0,
-                                   0.0,
-                                   0.0,
-                                   0.9777777777777777,
-                                   -3.7333333333333334,
-                                   3.5555555555555554,
-                                   0.0,
-                                   0.0,
-                                   0.0,
-                                   2.9525986892242035,
-                                   -11.595793324188385,
-                                   9.822892851699436,
-                                   -0.2908093278463649,
-                                   0.0,
-                                   0.0,
-                                   2.8462752525252526,
-                                   -10.757575757575758,
-                                   8.906422717743473,
-                                   0.2784090909090909,
-                                   -0.2735313036020583,
-                                   0.0};
-
-/// (6,) weights
-inline constexpr double rk5_b[] = {0.09114583333333333, 0.0,
-                                   0.44923629829290207, 0.6510416666666666,
-                                   -0.322376179245283,  0.13095238095238096};
-
-/// (6,) nodes
-inline constexpr double rk5_c[] = {0.0, 0.2, 0.3, 0.8, 0.8888888888888888, 1.0};
-
-/// (7,) error of the embedded formula; the last is of the end point
-inline constexpr double rk5_e[] = {
-    -0.0012326388888888888, 0.0,  0.0042527702905061394, -0.03697916666666667, 0.05086379716981132,
-    -0.0419047619047619,    0.025};
-
-/// (7, 4) interpolant: weight of stage i is sum_k p_ik x^(k + 1)
-inline constexpr double rk5_p[] = {1.0,
-                                   -2.8535800653862835,
-                                   3.0717434641059005,
-                                   -1.1270175653862835,
-                                   0.0,
-                                   0.0,
-                                   0.0,
-                                   0.0,
-                                   0.0,
-                                   4.023133379230305,
-                                   -6.249321565289,
-                                   2.675424484351598,
-                                   0.0,
-                                   -3.7324019615885042,
-                                   10.068970589843675,
-                                   -5.685526961588504,
-                                   0.0,
-                                   2.5548038301849423,
-                                   -6.399112377351017,
-                                   3.5219323679207912,
-                                   0.0,
-                                   -1.3744241142186024,
-                                   3.272657752246729,
-                                   -1.7672812570757455,
-                                   0.0,
-                                   1.3824689317781436,
-                                   -3.764937863556287,
-                                   2.382468931778144};
 
 /// (12, 12) stages, row by row
 inline constexpr double rk8_a[] = {0.0,
