@@ -182,6 +182,7 @@ LineList::LineList(const std::vector<Line>& lines, const element::Surroundings& 
                        "force " + in_quotes(line.name) + ": " + wrong->message);
     models_.push_back(
         line_model(line, around, line.pretension ? tightened(line, around) : line.length[0]));
+    tables_.emplace_back(models_.back());
     names.push_back(line.name);
     waves_.push_back(line.waves);
     free_ends_.push_back(line.point_b);

@@ -10,12 +10,10 @@ namespace hydrodae::line {
 
 namespace {
 
-/// Memory that grows to the most that a thread has asked for.
-template <class T> T* line_scratch(std::size_t n) {
-  thread_local std::vector<T> memory;
-  if (memory.size() < n)
-    memory.resize(n);
-  return memory.data();
+/// Scratch of a thread.
+template <class S> LineArrays<S>& line_arrays() {
+  thread_local LineArrays<S> arrays;
+  return arrays;
 }
 
 /// What the line takes for good, and what it stores.
@@ -157,8 +155,8 @@ private:
 
 template <class S> void LineList::loads(double t, const S* in, const double* held, S* out) const {
   for (std::size_t k = 0; k < size(); ++k) {
-    S* force = line_scratch<S>(3 * models_[k].nodes.size());
-    evaluate_line<S>(view(k, in, held), sea_of(k), t, force, out, out + shape.width);
+    evaluate_line(tables_[k], view(k, in, held), sea_of(k), t, line_arrays<S>(), out,
+                  out + shape.width);
     in += shape.n_in();
     out += shape.n_out();
   }
@@ -174,13 +172,13 @@ void LineList::evaluate(double t, const Dual* in, const double* held, Dual* out)
 
 void LineList::jacobian(double t, const double* in, const double* held, double* jacobian) const {
   thread_local LineBlocks blocks;
+  thread_local std::vector<double> out;
+  out.resize(static_cast<std::size_t>(shape.n_out()));
   for (std::size_t k = 0; k < size(); ++k) {
-    const auto n = models_[k].nodes.size();
-    double* force = line_scratch<double>(3 * n + static_cast<std::size_t>(shape.n_out()));
-    double* out = force + 3 * n;
     const LineView<double> at = view(k, in, held);
-    evaluate_line<double>(at, sea_of(k), t, force, out, out + shape.width);
-    jacobian = line_jacobian(at, sea_of(k), t, out + shape.width, blocks, jacobian);
+    double* const rates = out.data() + shape.width;
+    evaluate_line(tables_[k], at, sea_of(k), t, line_arrays<double>(), out.data(), rates);
+    jacobian = line_jacobian(at, sea_of(k), t, rates, blocks, jacobian);
     in += shape.n_in();
   }
 }

@@ -7,7 +7,7 @@
 #include "hydrodae/element/elements.h"
 #include "hydrodae/element/parting.h"
 #include "hydrodae/line/line.h"
-#include "hydrodae/line/line_model.h"
+#include "hydrodae/line/line_table.h"
 
 namespace hydrodae::line {
 
@@ -53,6 +53,7 @@ private:
   bool breaks_ = false;
   sea::WaveField water_, still_; ///< with the waves and without
   std::vector<LineModel> models_;
+  std::vector<LineTable> tables_;  ///< of the models
   std::vector<bool> waves_;        ///< of each line
   std::vector<Vector3> free_ends_; ///< towards which free ends lie
 };

@@ -165,31 +165,41 @@ template <class S> struct NodeWater {
   S line, body; ///< wet parts
 };
 template <class S>
+sea::FluidPoint<S> node_fluid(const LineView<S>& at, const sea::WaveField& sea, double t, int i,
+                              sea::FluidGradient* gradient = nullptr) {
+  const Vec3<S> none = Vec3<S>::Zero();
+  if (sea.terms.empty()) {
+    if (gradient)
+      *gradient = {Matrix3::Zero(), Matrix3::Zero(), Vector3::Zero()};
+    return {sea.current.template cast<S>(), none, S(0)};
+  }
+  Vec3<S> x = at.place(i);
+  const bool below = x[2] < S(-sea.depth);
+  if (below)
+    x[2] = S(-sea.depth);
+  sea::FluidPoint<S> out;
+  sea::fluid_on_line<S>(sea, t, x, none, 1, &out, gradient);
+  if (gradient && below)
+    gradient->velocity.col(2).setZero(), gradient->acceleration.col(2).setZero();
+  return out;
+}
+/// Wet part of the line at node i, so far above the surface.
+template <class S> S wet_line(const LineView<S>& at, int i, const S& above) {
+  const water::MorisonSegment& line = at.m.nodes[static_cast<std::size_t>(i)].line;
+  const double reach = std::max(line.half_length, line.radius); // no part is farther off
+  return line.radius == 0.0 || above > S(reach) ? S(0)
+         : above < S(-reach) ? S(1)
+                             : water::wet_part<S>(line, above, tangent<S>(at, i)[2]);
+}
+template <class S>
 NodeWater<S> node_water(const LineView<S>& at, const sea::WaveField& sea, double t, int i,
                         sea::FluidGradient* gradient = nullptr) {
   const LineNode& node = at.m.nodes[static_cast<std::size_t>(i)];
   NodeWater<S> out;
   out.t = tangent<S>(at, i);
-  Vec3<S> x = at.place(i);
-  const S height = x[2];
-  const Vec3<S> none = Vec3<S>::Zero();
-  if (sea.terms.empty()) {
-    out.fluid = {sea.current.template cast<S>(), none, S(0)};
-    if (gradient)
-      *gradient = {Matrix3::Zero(), Matrix3::Zero(), Vector3::Zero()};
-  } else {
-    const bool below = x[2] < S(-sea.depth);
-    if (below)
-      x[2] = S(-sea.depth);
-    sea::fluid_on_line<S>(sea, t, x, none, 1, &out.fluid, gradient);
-    if (gradient && below)
-      gradient->velocity.col(2).setZero(), gradient->acceleration.col(2).setZero();
-  }
-  const S above = height - out.fluid.elevation;
-  const double reach = std::max(node.line.half_length, node.line.radius); // no part is farther off
-  out.line = node.line.radius == 0.0 || above > S(reach) ? S(0)
-             : above < S(-reach) ? S(1)
-                                 : water::wet_part<S>(node.line, above, out.t[2]);
+  out.fluid = node_fluid<S>(at, sea, t, i, gradient);
+  const S above = at.place(i)[2] - out.fluid.elevation;
+  out.line = wet_line<S>(at, i, above);
   out.body = node.body.radius > 0.0 ? water::wet_part<S>(node.body, above, S(0)) : S(0);
   return out;
 }
@@ -211,13 +221,15 @@ Vec3<S> water_force(const LineNode& node, const NodeWater<S>& w, const Vec3<S>& 
 
 /// p(v) of the damping of the bed, v downwards: v beyond v_s, none on the way up or at rest, so
 /// that it only takes energy and never pulls. Twice differentiable. `both`: v itself.
-template <class S> Plus<S> down_rate(const S& v, bool both) {
-  if (both)
+template <bool both, class S> Plus<S> down_rate(const S& v) {
+  if constexpr (both)
     return {v, S(1), S(0)};
-  if (!(v > S(0)))
-    return {S(0), S(0), S(0)};
   const S y = v * v / S(slip_speed * slip_speed), part = y / (S(1) + y);
-  return {v * part, part * (S(3) - S(2) * part), S(0)};
+  const bool down = v > S(0);
+  return {down ? S(v * part) : S(0), down ? S(part * (S(3) - S(2) * part)) : S(0), S(0)};
+}
+template <class S> Plus<S> down_rate(const S& v, bool both) {
+  return both ? down_rate<true, S>(v) : down_rate<false, S>(v);
 }
 
 template <class S>
@@ -242,62 +254,6 @@ template <class S> struct NodeMass {
 template <class S> NodeMass<S> node_mass(const LineNode& node, const S& line, const S& body) {
   const S m = S(node.mass) + body * S(node.body.mass_body);
   return {m + line * S(node.line.mass_body), m + line * S(node.line.mass_axial)};
-}
-
-/// Forces of the segments and of bending into `force` (3 (N + 1),).
-template <class S> void add_elastic(const LineView<S>& at, S* force) {
-  const int n = at.m.n();
-  Vec3<S> e_before = Vec3<S>::Zero();
-  S l_before(1);
-  const auto on = [&](int i) { return Eigen::Map<Vec3<S>>(force + 3 * i); };
-  for (int k = 0; k < n; ++k) {
-    const SegmentPull<S> p = segment_pull<S>(at, k);
-    on(k) += p.tension * p.e;
-    on(k + 1) -= p.tension * p.e;
-    const double c = k > 0 ? at.bending(k) : 0.0;
-    if (c > 0.0) {
-      const S s = e_before.cwiseProduct(p.e).sum();
-      const Vec3<S> q_a = S(-c) / l_before * (p.e - s * e_before),
-                    q_b = S(-c) / p.length * (e_before - s * p.e);
-      on(k - 1) += q_a;
-      on(k) += q_b - q_a;
-      on(k + 1) -= q_b;
-    }
-    e_before = p.e;
-    l_before = p.length;
-  }
-}
-
-/// Loads on the ends and rates of the states; `force` (3 (N + 1),) is scratch.
-template <class S>
-void evaluate_line(const LineView<S>& at, const sea::WaveField& sea, double t, S* force, S* load,
-                   S* z_dot) {
-  const LineModel& m = at.m;
-  const int n = m.n();
-  std::fill_n(force, 3 * (n + 1), S(0));
-  add_elastic<S>(at, force);
-  const Vec3<S> still = Vec3<S>::Zero();
-  for (int i = 0; i <= n; ++i) {
-    const LineNode& node = m.nodes[static_cast<std::size_t>(i)];
-    Eigen::Map<Vec3<S>> f(force + 3 * i);
-    const Vec3<S> v = at.velocity(i);
-    f[2] -= S(node.mass * m.gravity);
-    f += bed_force<S>(m, node, at.place(i), v);
-    NodeWater<S> w{still, {still, still, S(0)}, S(0), S(0)};
-    if (m.wet) {
-      w = node_water<S>(at, sea, t, i);
-      f += water_force<S>(node, w, v, still);
-    }
-    if (m.is_end(i)) {
-      Eigen::Map<Vec3<S>>(load + (i == 0 ? 0 : 3)) = f;
-      continue;
-    }
-    const NodeMass<S> mass = node_mass<S>(node, w.line, w.body);
-    const S along = (S(1) / mass.along - S(1) / mass.across) * w.t.cwiseProduct(f).sum();
-    Eigen::Map<Vec3<S>> rate(z_dot + 6 * (i - 1)), acceleration(z_dot + 6 * (i - 1) + 3);
-    rate = v;
-    acceleration = f / mass.across + along * w.t;
-  }
 }
 
 /// (row, column) of the entries of d (load, z_dot) / d (x, v, z) that can differ from zero.

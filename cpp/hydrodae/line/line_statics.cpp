@@ -4,6 +4,7 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/line/line_table.h"
 #include "hydrodae/math/band_matrix.h"
 
 namespace hydrodae::line {
@@ -14,9 +15,9 @@ namespace {
 class Rest {
 public:
   Rest(const LineModel& m, const sea::WaveField& sea, const double* x)
-      : m_(m), sea_(sea), x_(x), still_(VectorX::Zero(3 * m.n_points())),
+      : m_(m), table_(m), sea_(sea), x_(x), still_(VectorX::Zero(3 * m.n_points())),
         z(VectorX::Zero(6 * m.n_unknown())), load(VectorX::Zero(3 * m.n_points())),
-        rates_(z.size()), force_(3 * (m.n() + 1)), sparsity_(line_sparsity(m)),
+        rates_(z.size()), sparsity_(line_sparsity(m)),
         values_(static_cast<Index>(sparsity_.size())), matrix_(3 * m.n_unknown(), m.bends ? 8 : 5) {
   }
 
@@ -25,14 +26,19 @@ public:
       z.segment<3>(6 * i) = places.segment<3>(3 * i);
   }
   VectorX accelerations() {
-    evaluate_line<double>(view(), sea_, 0.0, force_.data(), load.data(), rates_.data());
+    evaluate_line(table_, view(), sea_, 0.0, arrays_, load.data(), rates_.data());
     VectorX out(3 * m_.n_unknown());
     for (int i = 0; i < m_.n_unknown(); ++i)
       out.segment<3>(3 * i) = rates_.segment<3>(6 * i + 3);
     return out;
   }
   /// On the nodes that move, at the places of the last `accelerations`.
-  VectorX forces() const { return force_.segment(3, 3 * m_.n_unknown()); }
+  VectorX forces() {
+    VectorX out(3 * m_.n_unknown());
+    for (int i = 0; i < m_.n_unknown(); ++i)
+      out.segment<3>(3 * i) = arrays_.force(i + 1);
+    return out;
+  }
   /// a = (-d accelerations / d places + sigma)^-1 a. @returns whether it could be solved
   bool solve(double sigma, Eigen::Ref<MatrixX> a) {
     if (!factorise(sigma))
@@ -93,6 +99,8 @@ private:
   }
 
   const LineModel& m_;
+  LineTable table_;
+  LineArrays<double> arrays_;
   const sea::WaveField& sea_;
   const double* x_;
   VectorX still_;
@@ -101,7 +109,7 @@ public:
   VectorX z, load;
 
 private:
-  VectorX rates_, force_;
+  VectorX rates_;
   std::vector<std::array<int, 2>> sparsity_;
   VectorX values_;
   BandMatrix matrix_; ///< a force reaches one node on either side, two where the line bends
