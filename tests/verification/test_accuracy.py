@@ -136,6 +136,14 @@ def test_the_estimate_of_a_swing_is_right_to_a_factor(
     assert 0.1 < ratio < 10.0
 
 
+@pytest.mark.parametrize("rtol", [1e-3, 1e-4])
+def test_the_estimate_sees_steps_that_waves_bound(repository: Path, rtol: float) -> None:
+    """At these tolerances the waves decide on every step, whatever the tolerance."""
+    case = hydrodae.Case.read(repository / "cases" / "f3of" / "waves.toml")
+    ratio = ratio_of(case, "bodies/flap2/position", rtol=rtol, end_time=60.0, method="explicit_rk")
+    assert 1.0 / 3.0 < ratio < 3.0
+
+
 @pytest.mark.parametrize(
     ("solver", "step"),
     [

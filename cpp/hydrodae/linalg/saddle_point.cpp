@@ -16,10 +16,6 @@ constexpr double rough = 1e-6;  ///< residual of a step of a projection, which t
 constexpr double longest = 1e4; ///< way that closes a gap, relative to the gap
 constexpr double moving = 1e-8; ///< rates of the gaps likewise: more means that the loop is locked
 
-template <class Vector> double largest(const Vector& v) {
-  return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0.0;
-}
-
 } // namespace
 
 SaddlePoint::SaddlePoint(Equations& equations)
@@ -103,9 +99,9 @@ double SaddlePoint::gaps() {
 void SaddlePoint::close(double t, VectorX& y) {
   if (s_.n_lambda == 0 || !e_.constraint_residual(t, y, yp0_, residual_) || gaps() <= closed)
     return;
-  const double gap = largest(rhs_);
+  const double gap = rhs_.lpNorm<Eigen::Infinity>();
   matrix_.solve(rhs_, x_, rough);
-  if (largest(x_.head(s_.n_u)) <= longest * gap)
+  if (x_.head(s_.n_u).lpNorm<Eigen::Infinity>() <= longest * gap)
     system::retract(s_, x_.head(s_.n_u), y);
 }
 

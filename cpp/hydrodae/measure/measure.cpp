@@ -172,14 +172,16 @@ std::vector<double> Measure::work_inside(double x) const {
   const std::vector<double> power = own ? powers() : std::vector<double>();
   std::vector<double> work = work_;
   for (std::size_t j = 0; j < nodes.size(); ++j) {
-    double weight = 0.0;
+    double sum = 0.0, apart_from_j = 1.0;
     for (std::size_t k = 0; k < places.size(); ++k) {
       double value = x * weights[k];
       for (std::size_t i = 0; i < nodes.size(); ++i)
-        if (i != j)
-          value *= (x * places[k] - nodes[i]) / (nodes[j] - nodes[i]);
-      weight += value;
+        value *= i == j ? 1.0 : x * places[k] - nodes[i];
+      sum += value;
     }
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      apart_from_j *= i == j ? 1.0 : nodes[j] - nodes[i];
+    const double weight = sum / apart_from_j;
     const std::vector<double>& P = j < powers_.size() ? powers_[j] : power;
     for (std::size_t k = 0; k < work.size(); ++k)
       work[k] += (end_ - t_) * weight * P[k];

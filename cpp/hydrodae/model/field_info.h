@@ -45,12 +45,12 @@ template <class T> FieldInfo field_info(const Field<T>& field) {
   info.required = field.required;
   info.range = field.range;
   info.choices.assign(field.choices.begin(), field.choices.end());
-  static const auto defaults = std::make_unique<const T>();
+  static const T defaults{};
   std::visit(
       [&](auto member) {
-        info.kind = kind_of((*defaults).*member);
+        info.kind = kind_of(defaults.*member);
         if (!field.required)
-          info.default_value = value_text(info, (*defaults).*member);
+          info.default_value = value_text(info, defaults.*member);
       },
       field.member);
   return info;

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hydrodae/math/dense_cholesky.h"
 #include "hydrodae/sea/component.h"
 
 namespace hydrodae::sea {
 namespace {
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Largest step that keeps the error of the quintic Hermite polynomial within the tolerance.
 double table_step(const VectorX& omega, const Eigen::MatrixXcd& coefficients,
@@ -36,24 +39,34 @@ Signals::Signals(VectorX omega, Eigen::MatrixXcd coefficients, double end, doubl
   const auto cells = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::ceil(end / longest)));
   step_ = end / static_cast<double>(cells);
   // Re(C e) = [Re C, -Im C] [cos; sin], and the same for its derivatives, C i w and -C w^2.
-  MatrixX parts(3 * rows, 2 * n);
+  constexpr Eigen::Index chunk = 32 * dense::lanes;
+  RowMajor parts = RowMajor::Zero(2 * n, dense::padded(3 * rows)), phasors(2 * n, chunk);
   Eigen::MatrixXcd scaled = coefficients_;
   for (int d = 0; d < 3; ++d) {
-    parts.block(d * rows, 0, rows, n) = scaled.real();
-    parts.block(d * rows, n, rows, n) = -scaled.imag();
+    parts.block(0, d * rows, n, rows) = scaled.real().transpose();
+    parts.block(n, d * rows, n, rows) = -scaled.imag().transpose();
     scaled = scaled * (std::complex<double>(0.0, step_) * omega_).asDiagonal();
   }
   table_.resize(3 * rows, cells + 1);
-  constexpr Eigen::Index chunk = 256;
-  MatrixX phasors(2 * n, chunk);
+  RowMajor values(chunk, parts.cols());
   for (Eigen::Index first = 0; first <= cells; first += chunk) {
-    const Eigen::Index count = std::min(chunk, cells + 1 - first);
-    for (Eigen::Index k = 0; k < count; ++k) {
-      const auto angle = (static_cast<double>(first + k) * step_ * omega_).array();
-      phasors.col(k).head(n) = angle.cos();
-      phasors.col(k).tail(n) = angle.sin();
+    for (Eigen::Index i = 0; i < n; ++i) { // turned on from the first: few enough for rounding
+      const double step = step_ * omega_[i], start = static_cast<double>(first) * step;
+      const double a = std::cos(step), b = std::sin(step);
+      double x = std::cos(start), y = std::sin(start);
+      for (Eigen::Index k = 0; k < chunk; ++k) {
+        phasors(i, k) = x;
+        phasors(n + i, k) = y;
+        const double next = a * x - b * y;
+        y = a * y + b * x;
+        x = next;
+      }
     }
-    table_.middleCols(first, count).noalias() = parts * phasors.leftCols(count);
+    values.setZero();
+    dense::kernels().add_product(2 * n, chunk, phasors.data(), parts.cols(), parts.data(),
+                                 values.data());
+    const Eigen::Index count = std::min(chunk, cells + 1 - first);
+    table_.middleCols(first, count) = values.topLeftCorner(count, 3 * rows).transpose();
   }
 }
 

@@ -40,7 +40,7 @@ Spectrum spectrum_of_shape(const std::function<double(double)>& shape, double ta
   constexpr int points = 20000;
   constexpr double lowest = 0.2, highest = 20.0; // times wp; S(0.2 wp) < exp(-460)
   for (int i = 0; i <= points; ++i) {
-    const double x = lowest * std::pow(highest / lowest, static_cast<double>(i) / points);
+    const double x = lowest * std::exp(std::log(highest / lowest) * i / points);
     s.omega.push_back(x * wp);
     s.density.push_back(shape(x));
   }
@@ -55,8 +55,9 @@ Spectrum spectrum_of_shape(const std::function<double(double)>& shape, double ta
 }
 
 double jonswap_shape(double x, double gamma) {
-  double s = std::exp(-5.0 * std::log(x) - 1.25 * std::pow(x, -4.0));
-  if (gamma != 1.0) {
+  const double x4 = x * x * x * x;
+  double s = std::exp(-1.25 / x4) / (x * x4);
+  if (gamma != 1.0 && s > 0.0) {
     const double width = x <= 1.0 ? 0.07 : 0.09, d = (x - 1.0) / width;
     s *= std::pow(gamma, std::exp(-0.5 * d * d));
   }
