@@ -49,7 +49,7 @@ SaddlePoint::SaddlePoint(Equations& equations)
   };
   struct Visit {
     Index column, row, from;
-    bool rate, turned;
+    std::vector<Entry>* list;
   };
   std::vector<Visit> visits;
   for (Index column = 0; column < s_.n; ++column)
@@ -59,10 +59,10 @@ SaddlePoint::SaddlePoint(Equations& equations)
         continue;
       const bool mass = row < s_.n_u && c < s_.n_u;
       if (!mass || p.has_rate[k])
-        visits.push_back({c, row, k, mass, row < s_.n_u && c >= s_.n_u});
+        visits.push_back({c, row, k, mass ? &of_mass_ : row < s_.n_u ? &of_loads_ : &of_rows_});
     }
   for (Index i = s_.n_u; i < n_; ++i)
-    visits.push_back({i, i, -1, false, false});
+    visits.push_back({i, i, -1, nullptr});
   std::sort(visits.begin(), visits.end(), [](const Visit& a, const Visit& b) {
     return std::tie(a.column, a.row) < std::tie(b.column, b.row);
   });
@@ -72,8 +72,8 @@ SaddlePoint::SaddlePoint(Equations& equations)
     const auto slot = static_cast<Index>(row_.size());
     row_.push_back(v.row);
     ++start_[v.column + 1];
-    if (v.from >= 0)
-      entries_.push_back({v.from, slot, v.rate, v.turned});
+    if (v.list)
+      v.list->push_back({v.from, slot});
     else
       diagonal_.push_back(slot);
     if (v.row == v.column && v.column < s_.n_u)
@@ -86,6 +86,10 @@ SaddlePoint::SaddlePoint(Equations& equations)
   damping_.resize(s_.n_lambda);
   heaviest_.resize(static_cast<std::size_t>(s_.n_mechanisms) +
                    1); // the last: of what is not a body
+  sums_.resize(static_cast<std::size_t>(s_.n_lambda));
+  for (Index z = s_.z0; z < s_.memory0; ++z)
+    if (s_.is_algebraic(z))
+      algebraic_.push_back(z);
   mechanism_.assign(s_.n_u, heaviest_.size() - 1);
   turns_.assign(s_.n_u, false);
   for (const system::BodyData& b : s_.bodies)
@@ -131,7 +135,7 @@ void SaddlePoint::find_heaviest() {
     most = std::max(most, plain_[mass_[k]]);
   }
   for (Index i = s_.n_u; i < n_; ++i) {
-    const RowSums row = sums_of(i);
+    const RowSums& row = sums_[static_cast<std::size_t>(i - s_.n_u)] = sums_of(i);
     if (row.shift > 0.0) {
       Heaviest& h = heaviest_[row.mechanism];
       h.inertia = std::max(h.inertia, h.mass * row.turn / row.shift);
@@ -159,7 +163,7 @@ SaddlePoint::RowSums SaddlePoint::sums_of(Index i) const {
 bool SaddlePoint::factorise() {
   find_heaviest();
   for (Index i = s_.n_u; i < n_; ++i) {
-    const RowSums row = sums_of(i);
+    const RowSums& row = sums_[static_cast<std::size_t>(i - s_.n_u)];
     const Heaviest& h = heaviest_[row.mechanism];
     const bool shifts = row.shift > 0.0;
     double d = shifts ? row.shift : row.turn;
@@ -242,10 +246,12 @@ void SaddlePoint::solve(VectorX& x, double accuracy) {
 /// K with e = 0, in the pose of y.
 void SaddlePoint::fill(double t, const VectorX& y) {
   e_.mass_and_rows(t, y, yp0_, pattern_, parts_);
-  for (const Entry& entry : entries_) {
-    const double value = entry.rate ? parts_.by_yp[entry.from] : parts_.by_y[entry.from];
-    plain_[entry.slot] = entry.turned ? -value : value;
-  }
+  for (const Entry& entry : of_mass_)
+    plain_[entry.slot] = parts_.by_yp[entry.from];
+  for (const Entry& entry : of_rows_)
+    plain_[entry.slot] = parts_.by_y[entry.from];
+  for (const Entry& entry : of_loads_)
+    plain_[entry.slot] = -parts_.by_y[entry.from];
 }
 
 bool SaddlePoint::linearise(double t, VectorX& y) {
@@ -259,12 +265,12 @@ bool SaddlePoint::accelerations(double t, VectorX& y, VectorX& yp) {
   if (!e_.solve_algebraic(t, y) || !e_.free_residual(t, y, yp0_, residual_))
     return false;
   // Rows of q and z are y' = (explicit): with y' = 0 the residual is minus the rate.
-  yp.setZero();
+  yp.segment(s_.u0, s_.n_u).setZero();
+  yp.tail(s_.n - s_.lambda0).setZero();
   yp.head(s_.n_q) = -residual_.head(s_.n_q);
   yp.segment(s_.z0, s_.n_z) = -residual_.segment(s_.z0, s_.n_z);
-  for (Index z = s_.z0; z < s_.memory0; ++z)
-    if (s_.is_algebraic(z))
-      yp[z] = 0.0;
+  for (const Index z : algebraic_)
+    yp[z] = 0.0;
   fill(t, y);
   rhs_.head(s_.n_u) = -residual_.segment(s_.u0, s_.n_u);
   rhs_.tail(s_.n_lambda) = -parts_.row_rates;
