@@ -141,53 +141,52 @@ NewtonResult StageNewton::simplified(double t, double h, const VectorX& y0, cons
   });
 }
 
-/// Pattern of all stages: J and B in the diagonal blocks, B elsewhere.
+/// Pattern of all stages: J and B in the diagonal blocks, B elsewhere, and the velocities of points
+/// by their places at all stages.
 void StageNewton::make_full() {
   const int s = rk_.stages;
-  full_ = std::make_unique<Full>(system::find_pattern(e_.system));
-  const system::Pattern& p = full_->pattern;
+  full_ = std::make_unique<Full>(e_.system, system::find_pattern(e_.system));
+  const linalg::PointElimination& p = full_->points;
+  const std::vector<bool>& rates = p.empty() ? full_->pattern.has_rate : p.has_rate;
+  const Index n = p.n;
   full_->slots.assign(static_cast<std::size_t>(s * s), std::vector<Index>(p.row.size(), -1));
   full_->start.assign(1, 0);
   for (int j = 0; j < s; ++j)
-    for (Index c = 0; c < p.n; ++c) {
+    for (Index c = 0; c < n; ++c) {
       for (int i = 0; i < s; ++i)
-        for (Index k = p.column_start[c]; k < p.column_start[c + 1]; ++k) {
-          if (i != j && !p.has_rate[static_cast<std::size_t>(k)])
+        for (Index k = p.start[c]; k < p.start[c + 1]; ++k) {
+          if (i != j && !rates[static_cast<std::size_t>(k)])
             continue;
           full_->slots[static_cast<std::size_t>(i * s + j)][static_cast<std::size_t>(k)] =
               static_cast<Index>(full_->row.size());
-          full_->row.push_back(i * p.n + p.row[static_cast<std::size_t>(k)]);
+          full_->row.push_back(i * n + p.row[static_cast<std::size_t>(k)]);
         }
-      if (c >= e_.system.lambda0 && c < e_.system.sigma0) {
-        const auto first = p.row.begin() + p.column_start[c],
-                   last = p.row.begin() + p.column_start[c + 1];
+      const Index unknown = p.empty() ? c : p.unknown[static_cast<std::size_t>(c)];
+      if (unknown >= e_.system.lambda0 && unknown < e_.system.sigma0) {
+        const auto first = p.row.begin() + p.start[c], last = p.row.begin() + p.start[c + 1];
         const bool present = std::find(first, last, c) != last; // mu = 0 in other formulations
         full_->diagonal.push_back(present ? -1 : static_cast<Index>(full_->row.size()));
         if (!present)
-          full_->row.push_back(j * p.n + c);
+          full_->row.push_back(j * n + c);
       }
       full_->start.push_back(static_cast<Index>(full_->row.size()));
     }
-  // Unknown by unknown, all stages of each, in the order of the matrix of one stage: its fill, in
-  // blocks of s x s.
-  const linalg::Elimination one =
-      e_.system.has_memory() ? linalg::SparseLu<double>(p.column_start, p.row).elimination()
-                             : real_->elimination();
-  linalg::Elimination all;
-  for (std::size_t k = 0; k < one.row.size(); ++k)
-    for (int i = 0; i < s; ++i) {
-      all.row.push_back(i * p.n + one.row[k]);
-      all.column.push_back(i * p.n + one.column[k]);
-    }
-  full_->lu = std::make_unique<linalg::SparseLu<double>>(full_->start, full_->row, all);
+  full_->by_y = full_->by_yp = MatrixX::Zero(std::ssize(p.lifted), s);
+  full_->stays = MatrixX::Zero(p.empty() ? 0 : n, s);
+  // Ordered as a whole: the memory states fill thrice as much in the order of the matrix of one
+  // stage, all stages of each unknown together.
+  full_->lu = std::make_unique<linalg::SparseLu<double>>(full_->start, full_->row);
 }
 
 bool StageNewton::factorise_full(double t, double h) {
   const int s = rk_.stages;
+  const linalg::PointElimination& points = full_->points;
   const std::size_t nonzeros = full_->pattern.row.size();
   const system::JacobianParts& parts = full_->parts;
   std::vector<double>& values = full_->lu->values();
   const double alpha = 1.0 / (rk_.gamma0 * h);
+  const MatrixX twice = rk_.a_inverse * rk_.a_inverse;
+  std::fill(values.begin(), values.end(), 0.0);
   VectorX regular(e_.system.sigma0 - e_.system.lambda0);
   for (int i = 0; i < s; ++i) {
     y_ = stage_.col(i);
@@ -203,13 +202,27 @@ bool StageNewton::factorise_full(double t, double h) {
       if (slot >= 0)
         values[static_cast<std::size_t>(slot)] = regular[m];
     }
+    for (std::size_t k = 0; k < points.lifted.size(); ++k) {
+      const auto entry = static_cast<std::size_t>(points.lifted[k].entry);
+      full_->by_y(static_cast<Index>(k), i) = parts.by_y[entry];
+      full_->by_yp(static_cast<Index>(k), i) = parts.by_yp[entry];
+    }
     for (int j = 0; j < s; ++j) {
       const std::vector<Index>& slots = full_->slots[static_cast<std::size_t>(i * s + j)];
-      const double factor = rk_.a_inverse(i, j) / h;
-      for (std::size_t k = 0; k < nonzeros; ++k)
-        if (slots[k] >= 0)
-          values[static_cast<std::size_t>(slots[k])] =
-              (i == j ? parts.by_y[k] : 0.0) + factor * parts.by_yp[k];
+      const double one = i == j ? 1.0 : 0.0, factor = rk_.a_inverse(i, j) / h,
+                   square = twice(i, j) / (h * h);
+      std::size_t next = 0; // of the lifted ones
+      for (std::size_t k = 0; k < nonzeros; ++k) {
+        const Index stays = points.empty() ? static_cast<Index>(k) : points.target[k];
+        const Index slot = stays < 0 ? -1 : slots[static_cast<std::size_t>(stays)];
+        const bool lifts =
+            next < points.lifted.size() && static_cast<std::size_t>(points.lifted[next].entry) == k;
+        next += lifts ? 1 : 0;
+        if (slot >= 0)
+          values[static_cast<std::size_t>(slot)] +=
+              lifts ? factor * parts.by_y[k] + square * parts.by_yp[k]
+                    : one * parts.by_y[k] + factor * parts.by_yp[k];
+      }
     }
   }
   if (!full_->lu->factorise())
@@ -218,6 +231,37 @@ bool StageNewton::factorise_full(double t, double h) {
     full_->work = full_->lu->work();
   e_.statistics.factor_work += full_->work.factorise;
   return true;
+}
+
+/// Overwrites residual_ with the increment; columns one after the other are the order of the
+/// blocks. Of points dU = dQ A^T / h - R, with their places Q and the residuals R of these.
+void StageNewton::solve_full(double h) {
+  const linalg::PointElimination& p = full_->points;
+  if (p.empty()) {
+    full_->lu->solve(residual_.data());
+    return;
+  }
+  const int s = rk_.stages;
+  for (std::size_t k = 0; k < p.lifted.size(); ++k) {
+    const linalg::PointElimination::Lifted& of = p.lifted[k];
+    const auto R = residual_.row(p.pairs[static_cast<std::size_t>(of.pair)].place);
+    const auto entry = static_cast<Index>(k);
+    for (int i = 0; i < s; ++i) {
+      double sum = full_->by_y(entry, i) * R[i];
+      if (const double mass = full_->by_yp(entry, i); mass != 0.0)
+        sum += mass / h * rk_.a_inverse.row(i).dot(R);
+      residual_(of.row, i) += sum;
+    }
+  }
+  for (Index i = 0; i < p.n; ++i)
+    full_->stays.row(i) = residual_.row(p.equation[static_cast<std::size_t>(i)]);
+  full_->lu->solve(full_->stays.data());
+  for (const linalg::PointElimination::Pair& of : p.pairs)
+    residual_.row(of.velocity) = -residual_.row(of.place);
+  for (Index i = 0; i < p.n; ++i)
+    residual_.row(p.unknown[static_cast<std::size_t>(i)]) = full_->stays.row(i);
+  for (const linalg::PointElimination::Pair& of : p.pairs)
+    residual_.row(of.velocity).noalias() += residual_.row(of.place) * rk_.a_inverse.transpose() / h;
 }
 
 NewtonResult StageNewton::full(double t, double h, const VectorX& y0, const VectorX& w,
@@ -230,7 +274,7 @@ NewtonResult StageNewton::full(double t, double h, const VectorX& y0, const Vect
     const bool settled = iterations > 2 && contraction < 0.01; // then the matrix serves on
     if (!settled && !factorise_full(t, h))
       return false;
-    full_->lu->solve(residual_.data()); // columns one after the other: the order of the blocks
+    solve_full(h);
     e_.statistics.factor_work += full_->work.solve;
     return true;
   });

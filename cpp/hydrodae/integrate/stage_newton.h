@@ -47,18 +47,24 @@ private:
   struct Full {
     system::Pattern pattern;     ///< of one stage, the memory with it
     system::JacobianParts parts; ///< of one stage
+    linalg::PointElimination points;
     std::vector<Index> start, row;
     std::vector<Index>
         diagonal; ///< places of the multipliers' own diagonal entries, stage by stage
-    std::vector<std::vector<Index>> slots; ///< [i * s + j][k]: place of entry k of block (i, j), -1
+    /// [i * s + j][k]: place of entry k of what stays of block (i, j), -1
+    std::vector<std::vector<Index>> slots;
+    MatrixX by_y, by_yp; ///< (lifted, s) their entries at the stages
+    MatrixX stays;       ///< (n, s) of what stays
     std::unique_ptr<linalg::SparseLu<double>> lu;
     linalg::SparseLu<double>::Work work;
-    explicit Full(system::Pattern whole) : pattern(std::move(whole)), parts(pattern) {}
+    Full(const system::Regime& s, system::Pattern whole)
+        : pattern(std::move(whole)), parts(pattern), points(s, pattern) {}
   };
   bool residuals(double t, double h, const VectorX& y0, const MatrixX& Z);
   double size(const VectorX& w, const MatrixX& dZ) const;
   void make_full();
   bool factorise_full(double t, double h);
+  void solve_full(double h);
   double n_systems() const;
   double find_renewal() const;
   template <class Solve>

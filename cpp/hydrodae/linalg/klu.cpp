@@ -160,11 +160,6 @@ template <class Scalar> struct SparseLu<Scalar>::Impl {
 
 template <class Scalar>
 SparseLu<Scalar>::SparseLu(const std::vector<Index>& column_start, const std::vector<Index>& row)
-    : SparseLu(column_start, row, Elimination{}) {}
-
-template <class Scalar>
-SparseLu<Scalar>::SparseLu(const std::vector<Index>& column_start, const std::vector<Index>& row,
-                           const Elimination& order)
     : impl_(std::make_unique<Impl>()) {
   Impl& m = *impl_;
   klu_l_defaults(&m.common);
@@ -177,28 +172,11 @@ SparseLu<Scalar>::SparseLu(const std::vector<Index>& column_start, const std::ve
   const SuiteSparse_long n = m.size();
   if (n == 0) // where nothing can move
     return;
-  m.chosen = !order.row.empty();
-  if (order.row.empty()) {
-    m.symbolic = klu_l_analyze(n, m.start.data(), m.row.data(), &m.common);
-  } else {
-    std::vector<SuiteSparse_long> P(order.row.begin(), order.row.end()),
-        Q(order.column.begin(), order.column.end());
-    m.symbolic =
-        klu_l_analyze_given(n, m.start.data(), m.row.data(), P.data(), Q.data(), &m.common);
-  }
+  m.symbolic = klu_l_analyze(n, m.start.data(), m.row.data(), &m.common);
   if (!m.symbolic)
     throw SolverError(0.0, {Reason::jacobian,
                             "KLU cannot order the unknowns: the equations are structurally "
                             "singular or too large for the memory"});
-}
-
-template <class Scalar> Elimination SparseLu<Scalar>::elimination() const {
-  const Impl& m = *impl_;
-  if (!m.symbolic)
-    return {};
-  const SuiteSparse_long n = m.symbolic->n;
-  const SuiteSparse_long* row = m.numeric ? m.numeric->Pnum : m.symbolic->P;
-  return {{row, row + n}, {m.symbolic->Q, m.symbolic->Q + n}};
 }
 
 template <class Scalar> SparseLu<Scalar>::~SparseLu() = default;

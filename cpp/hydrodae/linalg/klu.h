@@ -10,20 +10,10 @@
 
 namespace hydrodae::linalg {
 
-/// Rows and columns of the pivots, each (n,).
-struct Elimination {
-  std::vector<Index> row, column;
-};
-
 template <class Scalar> class SparseLu {
 public:
   /// Compressed columns (n + 1,) and rows (nonzeros,) of a square matrix.
   SparseLu(const std::vector<Index>& column_start, const std::vector<Index>& row);
-
-  /// The same with the order of elimination given: pivot k in row `order.row[k]` and column
-  /// `order.column[k]`, unless that is next to nothing.
-  SparseLu(const std::vector<Index>& column_start, const std::vector<Index>& row,
-           const Elimination& order);
   ~SparseLu();
   SparseLu(SparseLu&&) noexcept;
   SparseLu& operator=(SparseLu&&) = delete;
@@ -39,9 +29,6 @@ public:
   /// solution, and calls `factorise` where that is large. False where they are missing or do
   /// not fit.
   bool refactorise();
-
-  /// Order of elimination, with the pivots of the last factorisation where there is one.
-  Elimination elimination() const;
 
   /// Overwrites b (n,) with the solution.
   void solve(Scalar* b);

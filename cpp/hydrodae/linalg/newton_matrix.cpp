@@ -10,7 +10,8 @@ using system::HydroData;
 
 template <class Scalar>
 NewtonMatrix<Scalar>::NewtonMatrix(const system::Regime& s, const system::Pattern& pattern)
-    : s_(s), lu_(pattern.column_start, pattern.row),
+    : s_(s), points_(s, pattern), lu_(points_.start, points_.row), lifted_(points_.lifted.size()),
+      stays_(points_.empty() ? 0 : points_.n),
       n_of_positions_(
           static_cast<std::size_t>(pattern.column_start[static_cast<std::size_t>(s.n_q)])) {
   const HydroData& h = s.hydro;
@@ -50,7 +51,8 @@ template <class Scalar> void NewtonMatrix<Scalar>::find_slots(const system::Patt
   for_each_entry([&](Index row, Index column, std::size_t, int, std::size_t, int) {
     const auto first = p.row.begin() + p.column_start[column],
                last = p.row.begin() + p.column_start[column + 1];
-    slots_.push_back(static_cast<Index>(std::lower_bound(first, last, row) - p.row.begin()));
+    const auto entry = std::lower_bound(first, last, row) - p.row.begin();
+    slots_.push_back(points_.empty() ? entry : points_.target[static_cast<std::size_t>(entry)]);
   });
 }
 
@@ -133,14 +135,39 @@ template <class Scalar> void NewtonMatrix<Scalar>::add_memory() {
   });
 }
 
+/// dF/dy + alpha dF/dy' of what stays.
+template <class Scalar>
+void NewtonMatrix<Scalar>::join(const system::JacobianParts& parts, const Alphas& alphas) {
+  std::vector<Scalar>& values = lu_.values();
+  const auto value = [&](std::size_t k) {
+    return parts.by_y[k] +
+           (k < n_of_positions_ ? alphas.of_positions : alphas.of_most) * parts.by_yp[k];
+  };
+  if (points_.empty()) {
+    for (std::size_t k = 0; k < values.size(); ++k)
+      values[k] = value(k);
+    return;
+  }
+  rate_ = alphas.of_most;
+  std::fill(values.begin(), values.end(), Scalar(0));
+  for (std::size_t k = 0; k < lifted_.size(); ++k)
+    lifted_[k] = value(static_cast<std::size_t>(points_.lifted[k].entry));
+  std::size_t next = 0; // of the lifted ones
+  for (std::size_t k = 0; k < points_.target.size(); ++k) {
+    if (points_.target[k] < 0)
+      continue;
+    const bool lifts =
+        next < lifted_.size() && static_cast<std::size_t>(points_.lifted[next].entry) == k;
+    values[static_cast<std::size_t>(points_.target[k])] +=
+        lifts ? product(rate_, lifted_[next++]) : value(k);
+  }
+}
+
 template <class Scalar>
 bool NewtonMatrix<Scalar>::factorise(const system::JacobianParts& parts, const Alphas& alphas,
                                      bool careful) {
   parts_ = &parts;
-  std::vector<Scalar>& values = lu_.values();
-  for (std::size_t k = 0; k < values.size(); ++k)
-    values[k] = parts.by_y[k] +
-                (k < n_of_positions_ ? alphas.of_positions : alphas.of_most) * parts.by_yp[k];
+  join(parts, alphas);
   if (s_.has_memory()) {
     find_transfer(alphas.of_memory);
     add_memory();
@@ -167,17 +194,36 @@ template <class Scalar> void NewtonMatrix<Scalar>::subtract_memory_loads(VectorS
   }
 }
 
+/// Without memory states.
+template <class Scalar> void NewtonMatrix<Scalar>::solve_bodies(Scalar* b) {
+  if (points_.empty())
+    return lu_.solve(b);
+  for (std::size_t k = 0; k < lifted_.size(); ++k) {
+    const PointElimination::Lifted& of = points_.lifted[k];
+    b[of.row] += product(lifted_[k], b[points_.pairs[static_cast<std::size_t>(of.pair)].place]);
+  }
+  for (Index i = 0; i < points_.n; ++i)
+    stays_[i] = b[points_.equation[static_cast<std::size_t>(i)]];
+  lu_.solve(stays_.data());
+  for (const PointElimination::Pair& of : points_.pairs)
+    b[of.velocity] = -b[of.place];
+  for (Index i = 0; i < points_.n; ++i)
+    b[points_.unknown[static_cast<std::size_t>(i)]] = stays_[i];
+  for (const PointElimination::Pair& of : points_.pairs)
+    b[of.velocity] += product(rate_, b[of.place]);
+}
+
 template <class Scalar> void NewtonMatrix<Scalar>::solve(Scalar* b) {
   const HydroData& h = s_.hydro;
   if (!s_.has_memory())
-    return lu_.solve(b);
+    return solve_bodies(b);
   Eigen::Map<MatrixS> r_z(b + h.z0, h.n_states, 1);
   z_ = r_z;
   r_z.setZero(); // their rows of the matrix are those of the identity
   w_ = z_.col(0);
   divide(w_);
   subtract_memory_loads(w_, b);
-  lu_.solve(b);
+  solve_bodies(b);
   for (std::size_t i = 0; i < h.bodies.size(); ++i) {
     const HydroBody& hb = h.bodies[i];
     const BodyData& body = s_.bodies[static_cast<std::size_t>(hb.body)];

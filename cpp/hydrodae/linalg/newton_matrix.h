@@ -7,12 +7,14 @@
 ///   [ -B U_x  D ] [dz] = [r_z]        dz = D^-1 (r_z + B_r U_x dx)
 ///
 /// T is as dense as the added mass between the bodies, and depends on alpha alone. What is left
-/// goes to KLU. Without memory states it is KLU alone.
+/// goes to KLU. Without memory states it is KLU alone. Points that move by themselves leave their
+/// velocities to their places first (point_elimination.h).
 
 #include <complex>
 #include <vector>
 
 #include "hydrodae/linalg/klu.h"
+#include "hydrodae/linalg/point_elimination.h"
 #include "hydrodae/system/jacobian.h"
 
 namespace hydrodae::linalg {
@@ -41,7 +43,6 @@ public:
   void subtract_memory_loads(VecX<Scalar>& z, Scalar* b);
 
   /// See SparseLu.
-  Elimination elimination() const { return lu_.elimination(); }
   typename SparseLu<Scalar>::Work work() const { return lu_.work(); }
 
 private:
@@ -49,6 +50,8 @@ private:
   using MatrixS = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
   template <class Visit> void for_each_entry(Visit&& visit) const;
   void find_slots(const system::Pattern& pattern);
+  void join(const system::JacobianParts& parts, const Alphas& alphas);
+  void solve_bodies(Scalar* b);
   void find_transfer(Scalar alpha);
   void add_memory();
   void invert();
@@ -56,7 +59,11 @@ private:
 
   const system::Regime& s_;
   const system::JacobianParts* parts_ = nullptr;
+  PointElimination points_;
   SparseLu<Scalar> lu_;
+  std::vector<Scalar> lifted_; ///< values of PointElimination::lifted
+  Scalar rate_{};              ///< alpha of the places of points
+  VectorS stays_;              ///< (PointElimination::n,) scratch
   std::size_t n_of_positions_; ///< entries in the columns of the positions, which come first
   std::vector<Index> slots_; ///< of the entries that the memory adds to, in the order of its visits
   Scalar alpha_{};

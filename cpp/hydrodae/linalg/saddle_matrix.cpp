@@ -44,7 +44,7 @@ void SaddleMatrix::find_slots(const system::Pattern& p) {
   };
   struct Visit {
     Index column, row, from;
-    bool rate, turned;
+    std::vector<Entry>* list;
   };
   std::vector<Visit> visits;
   for (Index column = 0; column < s_.n; ++column)
@@ -54,10 +54,10 @@ void SaddleMatrix::find_slots(const system::Pattern& p) {
         continue;
       const bool mass = row < s_.n_u && c < s_.n_u;
       if (!mass || p.has_rate[k])
-        visits.push_back({c, row, k, mass, row < s_.n_u && c >= s_.n_u});
+        visits.push_back({c, row, k, mass ? &of_mass_ : row < s_.n_u ? &of_loads_ : &of_rows_});
     }
   for (Index i = s_.n_u; i < n_; ++i)
-    visits.push_back({i, i, -1, false, false});
+    visits.push_back({i, i, -1, nullptr});
   std::sort(visits.begin(), visits.end(), [](const Visit& a, const Visit& b) {
     return std::tie(a.column, a.row) < std::tie(b.column, b.row);
   });
@@ -67,8 +67,8 @@ void SaddleMatrix::find_slots(const system::Pattern& p) {
     const auto slot = static_cast<Index>(row_.size());
     row_.push_back(v.row);
     ++start_[v.column + 1];
-    if (v.from >= 0)
-      entries_.push_back({v.from, slot, v.rate, v.turned});
+    if (v.list)
+      v.list->push_back({v.from, slot});
     else
       diagonal_.push_back(slot);
     if (v.row == v.column && v.column < s_.n_u)
@@ -81,6 +81,7 @@ void SaddleMatrix::find_slots(const system::Pattern& p) {
 
 void SaddleMatrix::find_mechanisms() {
   metric_.resize(s_.n_lambda);
+  sums_.resize(static_cast<std::size_t>(s_.n_lambda));
   damping_.resize(s_.n_lambda);
   heaviest_.resize(static_cast<std::size_t>(s_.n_mechanisms) +
                    1); // the last: of what is not a body
@@ -125,7 +126,7 @@ void SaddleMatrix::find_heaviest() {
     most = std::max(most, plain_[mass_[k]]);
   }
   for (Index i = s_.n_u; i < n_; ++i) {
-    const RowSums row = sums_of(i);
+    const RowSums& row = sums_[static_cast<std::size_t>(i - s_.n_u)] = sums_of(i);
     if (row.shift > 0.0) {
       Heaviest& h = heaviest_[row.mechanism];
       h.inertia = std::max(h.inertia, h.mass * row.turn / row.shift);
@@ -153,7 +154,7 @@ SaddleMatrix::RowSums SaddleMatrix::sums_of(Index i) const {
 bool SaddleMatrix::factorise() {
   find_heaviest();
   for (Index i = s_.n_u; i < n_; ++i) {
-    const RowSums row = sums_of(i);
+    const RowSums& row = sums_[static_cast<std::size_t>(i - s_.n_u)];
     const Heaviest& h = heaviest_[row.mechanism];
     const bool shifts = row.shift > 0.0;
     double d = shifts ? row.shift : row.turn;
@@ -239,10 +240,12 @@ void SaddleMatrix::solve(const VectorX& b, VectorX& x, double accuracy) {
 }
 
 void SaddleMatrix::fill(const system::JacobianParts& parts) {
-  for (const Entry& entry : entries_) {
-    const double value = entry.rate ? parts.by_yp[entry.from] : parts.by_y[entry.from];
-    plain_[entry.slot] = entry.turned ? -value : value;
-  }
+  for (const Entry& entry : of_mass_)
+    plain_[entry.slot] = parts.by_yp[entry.from];
+  for (const Entry& entry : of_rows_)
+    plain_[entry.slot] = parts.by_y[entry.from];
+  for (const Entry& entry : of_loads_)
+    plain_[entry.slot] = -parts.by_y[entry.from];
 }
 
 /// Of each body the directions (n_u,) along which its block of M is singular.

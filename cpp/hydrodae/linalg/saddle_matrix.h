@@ -54,9 +54,8 @@ private:
     std::size_t mechanism = 0;
   };
   struct Entry {
-    Index from = 0;                    ///< in the Jacobian
-    Index slot = 0;                    ///< in the matrix
-    bool rate = false, turned = false; ///< from dF/dy'; with the sign changed
+    Index from = 0; ///< in the Jacobian
+    Index slot = 0; ///< in the matrix
   };
   void find_slots(const system::Pattern& pattern);
   void find_mechanisms();
@@ -72,7 +71,9 @@ private:
   const system::Regime& s_;
   Index n_ = 0; ///< n_u + n_lambda
   std::vector<Index> start_, row_;
-  std::vector<Entry> entries_;
+  std::vector<Entry> of_mass_;           ///< from dF/dy'
+  std::vector<Entry> of_rows_;           ///< G, from dF/dy
+  std::vector<Entry> of_loads_;          ///< G^T, which dF/dy has with the other sign
   std::vector<Index> diagonal_;          ///< slots of eD
   std::vector<Index> mass_;              ///< slots of the diagonal of M
   std::vector<double> plain_;            ///< values with e = 0
@@ -80,6 +81,7 @@ private:
   std::vector<std::size_t> mechanism_;   ///< (n_u,)
   std::vector<bool> turns_;              ///< (n_u,) angular velocities
   std::vector<Heaviest> heaviest_;       ///< by mechanism
+  std::vector<RowSums> sums_;            ///< (n_lambda,)
   std::unique_ptr<SparseLu<double>> lu_; ///< made when first needed
   std::unique_ptr<BlockFactor> blocks_;  ///< null: `lu_` is cheaper
   bool in_blocks_ = false;               ///< the last factors

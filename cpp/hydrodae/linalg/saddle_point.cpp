@@ -22,7 +22,11 @@ SaddlePoint::SaddlePoint(Equations& equations)
     : e_(equations), s_(equations.system),
       pattern_(system::find_pattern(s_, system::Part::accelerations)), parts_(pattern_),
       matrix_(s_, pattern_), residual_(s_.n), rhs_(s_.n_u + s_.n_lambda), x_(rhs_.size()),
-      yp0_(VectorX::Zero(s_.n)), pressed_(Pressed::find(s_)) {}
+      yp0_(VectorX::Zero(s_.n)), pressed_(Pressed::find(s_)) {
+  for (Index z = s_.z0; z < s_.memory0; ++z)
+    if (s_.is_algebraic(z))
+      algebraic_.push_back(z);
+}
 
 SaddlePoint::~SaddlePoint() = default;
 
@@ -43,12 +47,12 @@ bool SaddlePoint::accelerations(double t, VectorX& y, VectorX& yp) {
   if (!e_.solve_algebraic(t, y) || !e_.free_residual(t, y, yp0_, residual_))
     return false;
   // Rows of q and z are y' = (explicit): with y' = 0 the residual is minus the rate.
-  yp.setZero();
+  yp.segment(s_.u0, s_.n_u).setZero();
+  yp.tail(s_.n - s_.lambda0).setZero();
   yp.head(s_.n_q) = -residual_.head(s_.n_q);
   yp.segment(s_.z0, s_.n_z) = -residual_.segment(s_.z0, s_.n_z);
-  for (Index z = s_.z0; z < s_.memory0; ++z)
-    if (s_.is_algebraic(z))
-      yp[z] = 0.0;
+  for (const Index z : algebraic_)
+    yp[z] = 0.0;
   fill(t, y);
   rhs_.head(s_.n_u) = -residual_.segment(s_.u0, s_.n_u);
   rhs_.tail(s_.n_lambda) = -parts_.row_rates;

@@ -85,6 +85,7 @@ private:
   system::Pattern pattern_;     ///< of what accelerations need
   system::JacobianParts parts_; ///< on it
   SaddleMatrix matrix_;
+  std::vector<Index> algebraic_; ///< unknowns of elements that have no rate
   VectorX residual_, rhs_, x_, yp0_;
   std::unique_ptr<Pressed> pressed_; ///< null: no friction is pressed by its joint
   std::string jam_;

@@ -246,18 +246,16 @@ VectorX follow(const LineModel& m, const double* x, const LineAtRest& before) {
 
 void find_rest(const LineModel& m, const sea::WaveField& sea, const double* x, Rest& rest,
                const Vector3& free_end, const LineAtRest* before, const std::string& name) {
-  VectorX places = line_shape(m, x, free_end);
+  const bool follows = before && before->z.size() > 0;
+  VectorX places = follows ? follow(m, x, *before) : line_shape(m, x, free_end);
   const RestScales size(m, places);
   const auto directly = [&] {
     return find_directly(rest, places, size.shortest, 1e-13 * size.g, size.floor);
   };
-  const VectorX first = places;
-  if (before && before->z.size() > 0) {
-    places = follow(m, x, *before);
-    if (directly())
-      return;
-    places = first;
-  }
+  if (follows && directly())
+    return;
+  const VectorX first = follows ? line_shape(m, x, free_end) : places;
+  places = first;
   if (directly())
     return;
   places = first;

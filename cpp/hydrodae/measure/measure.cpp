@@ -11,7 +11,7 @@ namespace hydrodae::measure {
 Measure::Measure(const system::Regime& system, double t0, const VectorX& y, const VectorX& yp)
     : s_(system), observer_(system), idle_(system::has_idle_reactions(system)), t_(t0), end_(t0),
       y_(y), yp_(yp) {
-  const Observation& o = observer_.observe(t0, y, yp);
+  const Observation& o = observer_.observe_balance(t0, y, yp);
   power_ = powers();
   work_ = end_work_ = std::vector<double>(power_.size(), 0.0);
   now_.whole.start = o.kinetic + o.kinetic_added_mass;
@@ -36,7 +36,7 @@ void Measure::begin(double t, const Interpolant& at) {
     if (idle_ && node < last)
       observer_.observe_powers(time, y_, yp_);
     else
-      observer_.observe(time, y_, yp_);
+      observer_.observe_balance(time, y_, yp_);
     powers_[node] = powers();
   }
   end_work_ = work_;
@@ -52,10 +52,10 @@ void Measure::take_mean(const Interpolant& at) {
   if (!(mean_from_ > t_ && mean_from_ <= end_))
     return;
   at(mean_from_, y_, yp_);
-  observer_.observe(mean_from_, y_, yp_);
+  observer_.observe_balance(mean_from_, y_, yp_);
   now_.mean_work = work_at(mean_from_);
   at(end_, y_, yp_);
-  observer_.observe(end_, y_, yp_);
+  observer_.observe_balance(end_, y_, yp_);
 }
 
 void Measure::begin(double t, std::span<const double> weights, const StageState& stage,
@@ -74,7 +74,7 @@ void Measure::begin(double t, std::span<const double> weights, const StageState&
       add_work(weights[i], powers());
     }
   at(t, y_, yp_);
-  observer_.observe(t, y_, yp_);
+  observer_.observe_balance(t, y_, yp_);
   take_end();
 }
 
@@ -220,7 +220,7 @@ void Measure::accept() {
 }
 
 void Measure::restart(const VectorX& y, const VectorX& yp, const std::optional<double>& work) {
-  const Observation& o = observer_.observe(t_, y, yp);
+  const Observation& o = observer_.observe_balance(t_, y, yp);
   power_ = powers();
   end_ = t_;
   take_turns();

@@ -231,6 +231,13 @@ void Observer::observe_powers(double t, const VectorX& y, const VectorX& yp) {
   for_each_list(s_, [&](const auto& list) { observe_loads(list, y.data()); });
 }
 
+const Observation& Observer::observe_balance(double t, const VectorX& y, const VectorX& yp) {
+  observe_powers(t, y, yp);
+  observe_joints(y.data());
+  observe_energy();
+  return out_;
+}
+
 const Observation& Observer::observe(double t, const VectorX& y, const VectorX& yp) {
   begin(t, y, yp);
   own_ = out_.elements.data();

@@ -49,6 +49,9 @@ public:
   const Observation& observe(double t, const VectorX& y, const VectorX& yp);
   const Observation& observation() const { return out_; }
 
+  /// Fills loads, reactions, powers and kinetic energies alone: what a balance of energy needs.
+  const Observation& observe_balance(double t, const VectorX& y, const VectorX& yp);
+
   /// Fills the loads of `observation()` and their powers alone, where reactions do no work.
   void observe_powers(double t, const VectorX& y, const VectorX& yp);
   const std::vector<BodyState<double>>& bodies() const { return ws_.bodies; }

@@ -192,8 +192,12 @@ void add_loads(const Regime& s, const ElementList& list, Workspace<S>& ws, const
     in += shape.n_in();
     add_load<S>(s, shape, port, out, rows, ws);
     const int rates = shape.n_states - shape.n_algebraic;
-    for (int k = 0; k < shape.n_states; ++k, ++z)
-      residual[z] = (k < rates ? yp[z] : S(0)) - out[shape.width + k];
+    const S* z_dot = out + shape.width;
+    for (int k = 0; k < rates; ++k)
+      residual[z + k] = yp[z + k] - z_dot[k];
+    for (int k = rates; k < shape.n_states; ++k)
+      residual[z + k] = -z_dot[k];
+    z += shape.n_states;
     rows += element::has_rows(shape.port) ? shape.width : 0;
     out += shape.n_out();
   }

@@ -47,31 +47,3 @@ TEST_CASE("singular matrices and values that are not finite are told") {
   lu.values() = {1.0, 1.0, 1.0, NAN};
   CHECK_FALSE(lu.factorise());
 }
-
-TEST_CASE("a given order of elimination is kept") {
-  // An arrow: dense first row and column, diagonal else.
-  constexpr Index n = 6;
-  std::vector<Index> start{0}, row;
-  std::vector<double> values;
-  for (Index column = 0; column < n; ++column) {
-    for (Index r = 0; r < n; ++r)
-      if (r == column || r == 0 || column == 0) {
-        row.push_back(r);
-        values.push_back(r == column ? 4.0 + static_cast<double>(r) : 1.0);
-      }
-    start.push_back(static_cast<Index>(row.size()));
-  }
-  const linalg::Elimination last{{5, 4, 3, 2, 1, 0}, {5, 4, 3, 2, 1, 0}};
-  linalg::SparseLu<double> given(start, row, last), own(start, row);
-  std::vector<double> x(n, 1.0), same(n, 1.0);
-  for (auto* lu : {&given, &own}) {
-    lu->values() = values;
-    REQUIRE(lu->factorise());
-    lu->solve(lu == &given ? x.data() : same.data());
-  }
-  for (std::size_t k = 0; k < x.size(); ++k)
-    CHECK(x[k] == doctest::Approx(same[k]));
-  const linalg::Elimination used = given.elimination();
-  CHECK(used.row == last.row);
-  CHECK(used.column == last.column);
-}
