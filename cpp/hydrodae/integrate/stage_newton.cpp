@@ -145,10 +145,24 @@ NewtonResult StageNewton::simplified(double t, double h, const VectorX& y0, cons
 /// by their places at all stages.
 void StageNewton::make_full() {
   const int s = rk_.stages;
-  full_ = std::make_unique<Full>(e_.system, system::find_pattern(e_.system));
+  full_ = std::make_unique<Full>(e_.system, e_.pattern);
   const linalg::PointElimination& p = full_->points;
-  const std::vector<bool>& rates = p.empty() ? full_->pattern.has_rate : p.has_rate;
+  std::vector<bool> rates = p.empty() ? full_->pattern.has_rate : p.has_rate;
   const Index n = p.n;
+  if (e_.system.has_memory()) {
+    full_->memory.emplace(e_.system);
+    linalg::for_each_memory_entry(
+        e_.system, [&](Index row, Index column, std::size_t, int, std::size_t, int) {
+          const std::vector<Index>&start = full_->pattern.column_start, &in = full_->pattern.row;
+          const auto entry =
+              std::lower_bound(in.begin() + start[static_cast<std::size_t>(column)],
+                               in.begin() + start[static_cast<std::size_t>(column) + 1], row) -
+              in.begin();
+          const Index stays = p.empty() ? entry : p.target[static_cast<std::size_t>(entry)];
+          full_->memory_slots.push_back(stays);
+          rates[static_cast<std::size_t>(stays)] = true;
+        });
+  }
   full_->slots.assign(static_cast<std::size_t>(s * s), std::vector<Index>(p.row.size(), -1));
   full_->start.assign(1, 0);
   for (int j = 0; j < s; ++j)
@@ -173,8 +187,8 @@ void StageNewton::make_full() {
     }
   full_->by_y = full_->by_yp = MatrixX::Zero(std::ssize(p.lifted), s);
   full_->stays = MatrixX::Zero(p.empty() ? 0 : n, s);
-  // Ordered as a whole: the memory states fill thrice as much in the order of the matrix of one
-  // stage, all stages of each unknown together.
+  // Ordered as a whole: with all stages of each unknown together, in the order of one stage, it
+  // fills more.
   full_->lu = std::make_unique<linalg::SparseLu<double>>(full_->start, full_->row);
 }
 
@@ -193,10 +207,9 @@ bool StageNewton::factorise_full(double t, double h) {
     yp_ = rate_.col(i);
     e_.jacobian(t + rk_.c[i] * h, y_, yp_);
     e_.regularisation(alpha, regular);
-    if (e_.system.has_memory())
-      e_.jacobian(t + rk_.c[i] * h, y_, yp_, full_->pattern, full_->parts);
-    else
-      std::swap(e_.parts, full_->parts);
+    std::swap(e_.parts, full_->parts);
+    if (full_->memory)
+      full_->memory->take(static_cast<std::size_t>(i), parts);
     for (Index m = 0; m < regular.size(); ++m) {
       const Index slot = full_->diagonal[static_cast<std::size_t>(i * regular.size() + m)];
       if (slot >= 0)
@@ -225,6 +238,8 @@ bool StageNewton::factorise_full(double t, double h) {
       }
     }
   }
+  if (full_->memory)
+    add_memory(h);
   if (!full_->lu->factorise())
     return false;
   if (full_->work.factorise == 0.0)
@@ -233,9 +248,31 @@ bool StageNewton::factorise_full(double t, double h) {
   return true;
 }
 
+void StageNewton::add_memory(double h) {
+  const int s = rk_.stages;
+  std::vector<double>& values = full_->lu->values();
+  full_->memory->prepare(rk_.a_inverse, h);
+  for (int i = 0; i < s; ++i)
+    for (int j = 0; j < s; ++j) {
+      const std::vector<Index>& slots = full_->slots[static_cast<std::size_t>(i * s + j)];
+      full_->memory->for_each_load(i, j, s, [&](std::size_t k, double value) {
+        values[static_cast<std::size_t>(slots[static_cast<std::size_t>(full_->memory_slots[k])])] +=
+            value;
+      });
+    }
+}
+
+void StageNewton::solve_full(double h) {
+  if (full_->memory)
+    full_->memory->forward(residual_);
+  solve_bodies(h);
+  if (full_->memory)
+    full_->memory->backward(residual_);
+}
+
 /// Overwrites residual_ with the increment; columns one after the other are the order of the
 /// blocks. Of points dU = dQ A^T / h - R, with their places Q and the residuals R of these.
-void StageNewton::solve_full(double h) {
+void StageNewton::solve_bodies(double h) {
   const linalg::PointElimination& p = full_->points;
   if (p.empty()) {
     full_->lu->solve(residual_.data());

@@ -7,9 +7,11 @@
 /// stage, all stages in one sparse matrix; it passes singular poses where the simplified one fails.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "hydrodae/integrate/runge_kutta.h"
+#include "hydrodae/integrate/stage_memory.h"
 #include "hydrodae/linalg/equations.h"
 #include "hydrodae/linalg/newton_matrix.h"
 
@@ -45,7 +47,7 @@ public:
 
 private:
   struct Full {
-    system::Pattern pattern;     ///< of one stage, the memory with it
+    system::Pattern pattern;     ///< of one stage
     system::JacobianParts parts; ///< of one stage
     linalg::PointElimination points;
     std::vector<Index> start, row;
@@ -53,18 +55,22 @@ private:
         diagonal; ///< places of the multipliers' own diagonal entries, stage by stage
     /// [i * s + j][k]: place of entry k of what stays of block (i, j), -1
     std::vector<std::vector<Index>> slots;
+    std::vector<Index> memory_slots; ///< of what stays, in the order of StageMemory's visits
+    std::optional<StageMemory> memory;
     MatrixX by_y, by_yp; ///< (lifted, s) their entries at the stages
     MatrixX stays;       ///< (n, s) of what stays
     std::unique_ptr<linalg::SparseLu<double>> lu;
     linalg::SparseLu<double>::Work work;
-    Full(const system::Regime& s, system::Pattern whole)
-        : pattern(std::move(whole)), parts(pattern), points(s, pattern) {}
+    Full(const system::Regime& s, const system::Pattern& of_stage)
+        : pattern(of_stage), parts(pattern), points(s, pattern) {}
   };
   bool residuals(double t, double h, const VectorX& y0, const MatrixX& Z);
   double size(const VectorX& w, const MatrixX& dZ) const;
   void make_full();
   bool factorise_full(double t, double h);
+  void add_memory(double h);
   void solve_full(double h);
+  void solve_bodies(double h);
   double n_systems() const;
   double find_renewal() const;
   template <class Solve>

@@ -25,30 +25,8 @@ NewtonMatrix<Scalar>::NewtonMatrix(const system::Regime& s, const system::Patter
   find_slots(pattern);
 }
 
-/// Visits the entries of L T U_x: visit(row, column, i, component of i, j, k) with bodies i and j
-/// of the water, and k the rotation unknown or, from 4 on, the velocity unknown of j.
-template <class Scalar>
-template <class Visit>
-void NewtonMatrix<Scalar>::for_each_entry(Visit&& visit) const {
-  const std::vector<HydroBody>& bodies = s_.hydro.bodies;
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    for (std::size_t j = 0; j < bodies.size(); ++j) {
-      if (!bodies[i].moves || !bodies[j].moves)
-        continue;
-      const BodyData &a = s_.bodies[static_cast<std::size_t>(bodies[i].body)],
-                     &b = s_.bodies[static_cast<std::size_t>(bodies[j].body)];
-      for (int m = 0; m < a.n_active; ++m) {
-        for (int k = 0; k < b.n_position - b.n_translations; ++k)
-          visit(a.u0 + m, b.q0 + b.n_translations + k, i, a.active[static_cast<std::size_t>(m)], j,
-                k);
-        for (int k = 0; k < b.n_active; ++k)
-          visit(a.u0 + m, b.u0 + k, i, a.active[static_cast<std::size_t>(m)], j, 4 + k);
-      }
-    }
-}
-
 template <class Scalar> void NewtonMatrix<Scalar>::find_slots(const system::Pattern& p) {
-  for_each_entry([&](Index row, Index column, std::size_t, int, std::size_t, int) {
+  for_each_memory_entry(s_, [&](Index row, Index column, std::size_t, int, std::size_t, int) {
     const auto first = p.row.begin() + p.column_start[column],
                last = p.row.begin() + p.column_start[column + 1];
     const auto entry = std::lower_bound(first, last, row) - p.row.begin();
@@ -119,7 +97,7 @@ template <class Scalar> void NewtonMatrix<Scalar>::add_memory() {
   std::size_t last_i = bodies.size(), last_j = last_i;
   Columns of_pair;
   auto slot = slots_.begin();
-  for_each_entry([&](Index, Index, std::size_t i, int component, std::size_t j, int k) {
+  for_each_memory_entry(s_, [&](Index, Index, std::size_t i, int component, std::size_t j, int k) {
     if (i != last_i || j != last_j) {
       Block T = Block::Zero();
       for (int m = 0; m < 6; ++m)

@@ -19,6 +19,26 @@
 
 namespace hydrodae::linalg {
 
+/// Visits the entries of L T U_x: visit(row, column, i, component of i, j, k) with bodies i and j
+/// of the water, and k the rotation unknown or, from 4 on, the velocity unknown of j.
+template <class Visit> void for_each_memory_entry(const system::Regime& s, Visit&& visit) {
+  const std::vector<system::HydroBody>& bodies = s.hydro.bodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    for (std::size_t j = 0; j < bodies.size(); ++j) {
+      if (!bodies[i].moves || !bodies[j].moves)
+        continue;
+      const system::BodyData &a = s.bodies[static_cast<std::size_t>(bodies[i].body)],
+                             &b = s.bodies[static_cast<std::size_t>(bodies[j].body)];
+      for (int m = 0; m < a.n_active; ++m) {
+        for (int k = 0; k < b.n_position - b.n_translations; ++k)
+          visit(a.u0 + m, b.q0 + b.n_translations + k, i, a.active[static_cast<std::size_t>(m)], j,
+                k);
+        for (int k = 0; k < b.n_active; ++k)
+          visit(a.u0 + m, b.u0 + k, i, a.active[static_cast<std::size_t>(m)], j, 4 + k);
+      }
+    }
+}
+
 template <class Scalar> class NewtonMatrix {
 public:
   /// `pattern`: of Part::condensed, or any where there is no memory. Both must outlive it.
@@ -48,7 +68,6 @@ public:
 private:
   using VectorS = VecX<Scalar>;
   using MatrixS = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
-  template <class Visit> void for_each_entry(Visit&& visit) const;
   void find_slots(const system::Pattern& pattern);
   void join(const system::JacobianParts& parts, const Alphas& alphas);
   void solve_bodies(Scalar* b);
