@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.errors import refused
 
 import hydrodae
 from hydrodae.commands.cli import main
@@ -103,7 +104,7 @@ def test_rao(rao_case: Path, tmp_path: Path, capsys: CAPTURE) -> None:
     assert found.modes[0].period > found.modes[-1].period
     with pytest.raises(hydrodae.CaseError, match="expected numbers > 0"):
         hydrodae.rao(rao_case, periods=[0.0])
-    with pytest.raises(hydrodae.DatabaseError, match="outside the database"):
+    with refused("range", "frequencies"):
         hydrodae.rao(rao_case, periods=[1.0])
 
 
@@ -193,7 +194,7 @@ def test_hdb_fit_and_kernel(sphere: Path, tmp_path: Path, capsys: CAPTURE) -> No
         hydrodae.hdb.fit(database, f"{body}.heave", name="a b")
     with pytest.raises(hydrodae.CaseError, match="target -1: expected a number > 0"):
         hydrodae.hdb.fit(database, f"{body}.heave", target=-1.0)
-    with pytest.raises(hydrodae.DatabaseError, match="did you mean"):
+    with refused("label", f"{body}.heaf"):
         hydrodae.hdb.kernel(database, f"{body}.heaf")
 
 
