@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
-from hydrodae.errors import CaseError, SolverError
+from hydrodae.errors import CaseError, DatabaseError, SolverError
 
 
 def wrong(key: str) -> pytest.RaisesExc[CaseError]:
@@ -19,3 +21,16 @@ def stopped(reason: str, subject: str | None = None) -> pytest.RaisesExc[SolverE
         return error.reason == reason and subject in (None, error.subject)
 
     return pytest.RaisesExc(SolverError, check=meant)
+
+
+def refused(
+    reason: str, subject: str | None = None, *, file: str | None = None, line: int | None = None
+) -> pytest.RaisesExc[DatabaseError]:
+    """Expect a DatabaseError for this reason, with the subject, name of file and line given."""
+
+    def meant(error: DatabaseError) -> bool:
+        found = (error.reason, error.subject, Path(error.file).name, error.line)
+        wanted = (reason, subject, file, line)
+        return all(one in (None, other) for one, other in zip(wanted, found, strict=True))
+
+    return pytest.RaisesExc(DatabaseError, check=meant)

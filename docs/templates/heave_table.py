@@ -30,7 +30,8 @@ def heave_file(path: Path) -> Path | None:
     paths = [path] if path.is_file() else sorted(path.iterdir())
     found = [p for p in paths if p.suffix == ".heave"]
     if len(found) > 1:
-        raise DatabaseError(f"{path}: which one is meant? {', '.join(p.name for p in found)}")
+        names = ", ".join(p.name for p in found)
+        raise DatabaseError(f"which one is meant? {names}").about("ambiguous", file=path)
     return found[0] if found else None
 
 
@@ -50,9 +51,9 @@ def read_heave(path: Path) -> SourceData:
         omega, a, b, real, imaginary = np.loadtxt(lines[1:], ndmin=2, unpack=True)
     except (KeyError, ValueError, IndexError) as error:
         raise DatabaseError(
-            f"{path}: {error}; expected '# density=... gravity=... depth=... point=x,y,z' and rows "
+            f"{error}; expected '# density=... gravity=... depth=... point=x,y,z' and rows "
             "of w, A33, B33, Re F3, Im F3"
-        ) from error
+        ).about("format", file=path) from error
     name = path.stem
     return SourceData(
         coordinates=(f"{name}.heave",),

@@ -10,6 +10,7 @@ from typing import Any
 import h5py
 import numpy as np
 import pytest
+from tests.errors import refused
 from tests.python.conftest import write_results
 
 from hydrodae import hdb
@@ -101,18 +102,18 @@ def first_fit(file: h5py.File) -> h5py.Group:
 
 
 @pytest.mark.parametrize(
-    ("dataset", "data", "message"),
+    ("dataset", "data", "reason"),
     [
-        ("poles", np.array([b"text"]), "poles: expected numbers, found"),
-        ("poles", np.array([np.nan + 0j]), "poles: holds values that are not finite"),
-        ("added_mass_inf", PAIR, "added_mass_inf: expected numbers, found"),
-        ("inputs", 1.0, "inputs: expected text, found float64"),
+        ("poles", np.array([b"text"]), "format"),
+        ("poles", np.array([np.nan + 0j]), "not_finite"),
+        ("added_mass_inf", PAIR, "format"),
+        ("inputs", 1.0, "format"),
     ],
 )
-def test_a_damaged_fit_is_refused(dataset: str, data: Any, message: str, database: Path) -> None:
+def test_a_damaged_fit_is_refused(dataset: str, data: Any, reason: str, database: Path) -> None:
     with h5py.File(database, "r+") as file:
         replaced(dataset, data)(first_fit(file))
-    with pytest.raises(DatabaseError, match=message):
+    with refused(reason, dataset):
         hdb.read(database)
 
 
@@ -120,14 +121,14 @@ def test_a_damaged_fit_is_refused(dataset: str, data: Any, message: str, databas
 def test_a_report_that_is_no_number_is_refused(value: Any, database: Path) -> None:
     with h5py.File(database, "r+") as file:
         file["radiation_kernel"].attrs["min_eig_relative"] = value
-    with pytest.raises(DatabaseError, match=r"radiation_kernel: attribute min_eig_relative is "):
+    with refused("shape", "min_eig_relative"):
         hdb.read(database)
 
 
 @pytest.mark.parametrize("size", [2540, 30_000])
 def test_a_database_cut_off_is_refused(size: int, database: Path) -> None:
     database.write_bytes(database.read_bytes()[:size])
-    with pytest.raises(DatabaseError, match=r"hydro\.h5: "):
+    with refused("damaged"):
         hdb.read(database)
 
 
@@ -148,5 +149,5 @@ def test_a_database_with_other_bytes_in_its_tables_is_refused(database: Path) ->
     data = bytearray(database.read_bytes())
     data[chunk.byte_offset : chunk.byte_offset + chunk.size] = bytes(chunk.size)
     database.write_bytes(data)
-    with pytest.raises(DatabaseError, match=r"hydro\.h5: incomplete or damaged"):
+    with refused("damaged"):
         hdb.read(database)

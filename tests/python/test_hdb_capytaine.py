@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from tests.errors import refused
 
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
@@ -122,28 +123,28 @@ def test_few_nan_rows_are_dropped_and_reported_many_are_an_error(tmp_path):
     assert 1.5 not in db.omega
     assert "(w = 1.5 rad/s)" in report.find("NaN")[0].message
     ds["radiation_damping"][2:8] = np.nan
-    with pytest.raises(DatabaseError, match="6 of 15 frequencies hold NaN"):
+    with refused("not_finite"):
         hdb.read(save(ds, tmp_path / "many.nc", 3))
 
 
 def test_old_files_state_the_sea_bottom(tmp_path):
     old = dataset(2, OMEGA).drop_vars("water_depth").assign_coords(sea_bottom=-30.0)
     assert hdb.read(save(old, tmp_path / "x.nc", 2)).water_depth == 30.0
-    with pytest.raises(DatabaseError, match="needs one value of 'water_depth'"):
+    with refused("missing", "water_depth"):
         hdb.read(save(old.drop_vars("sea_bottom"), tmp_path / "y.nc", 2))
 
 
 def test_study_dimensions_must_be_selected(tmp_path):
     ds = dataset(3, OMEGA)
     two = xr.concat([ds, ds.assign_coords(rho=1000.0)], dim="rho", data_vars="all")
-    with pytest.raises(DatabaseError, match="2 values of 'rho'"):
+    with refused("ambiguous", "rho"):
         hdb.read(save(two, tmp_path / "two.nc", 3))
 
 
 def test_headings_in_degrees_are_refused(tmp_path):
     ds = dataset(3, OMEGA)
     ds = ds.assign_coords(wave_direction=[0.0, 90.0])
-    with pytest.raises(DatabaseError, match=r"wave_direction 90: expected radians.*degrees\?"):
+    with refused("units", "wave_direction"):
         hdb.read(save(ds, tmp_path / "degrees.nc", 3))
 
 
@@ -159,11 +160,11 @@ def test_flexible_modes_are_left_out_with_a_warning(tmp_path):
 def test_files_that_are_something_else(tmp_path):
     text = tmp_path / "notes.txt"
     text.write_text("hello")
-    with pytest.raises(DatabaseError, match=r"notes.txt: not a Nemoh folder"):
+    with refused("unsupported", file="notes.txt"):
         hdb.read(text)
     other = tmp_path / "other.nc"
     xr.Dataset({"t": ("x", [1.0])}).to_netcdf(other, engine="scipy")
-    with pytest.raises(DatabaseError, match="no variable 'added_mass'"):
+    with refused("missing", "added_mass"):
         hdb.read(other)
 
 
@@ -232,7 +233,7 @@ def test_capytaine_2_sphere_takes_its_point_from_beside(reference, tmp_path):
     bare = hdb.read(alone)
     with pytest.raises(DatabaseError, match="--origin floating_sphere"):
         bare.write(tmp_path / "x.h5")
-    with pytest.raises(DatabaseError, match="does not say about which point"):
+    with refused("point", "floating_sphere"):
         bare.moved_to({"floating_sphere": (0, 0, 0)})
     db, report = hdb.import_database(path, names=["buoy"], source_points={"buoy": (0, 0, -2)})
     assert hydrostatics(db, "buoy").displaced_volume == pytest.approx(261.364)

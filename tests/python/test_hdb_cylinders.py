@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy import special
+from tests.errors import refused
 
 from hydrodae import hdb
 from hydrodae.commands.cli import main
-from hydrodae.errors import DatabaseError
 from hydrodae.hdb.interaction.array import solve
 from hydrodae.hdb.interaction.radial import translation
 from hydrodae.hdb.interaction.vertical import outside
@@ -146,19 +146,23 @@ def test_turned_array_has_turned_loads() -> None:
 
 
 @pytest.mark.parametrize(
-    ("places", "body", "depth", "message"),
+    ("places", "body", "depth", "reason", "subject"),
     [
-        ({"a": (0, 0), "b": (0.5, 0)}, NODE, 3.0, "0.5 m apart, less than a diameter"),
-        ({"a": (0, 0)}, NODE, np.inf, "needs a finite depth"),
-        ({"a": (0, 0)}, NODE, 0.5, "draught between 0 and the depth"),
-        ({}, NODE, 3.0, "no bodies"),
-        ({"a": (0, 0, 0)}, NODE, 3.0, "expected x, y"),
+        ({"a": (0, 0), "b": (0.5, 0)}, NODE, 3.0, "geometry", "b"),
+        ({"a": (0, 0)}, NODE, np.inf, "value", "depth"),
+        ({"a": (0, 0)}, NODE, 0.5, "geometry", "cylinder"),
+        ({}, NODE, 3.0, "option", "places"),
+        ({"a": (0, 0, 0)}, NODE, 3.0, "shape", "a"),
     ],
 )
 def test_impossible_arrays_are_refused(
-    places: dict[str, tuple[float, ...]], body: hdb.Cylinder, depth: float, message: str
+    places: dict[str, tuple[float, ...]],
+    body: hdb.Cylinder,
+    depth: float,
+    reason: str,
+    subject: str,
 ) -> None:
-    with pytest.raises(DatabaseError, match=message):
+    with refused(reason, subject):
         hdb.cylinders(places, body, hdb.Water(3.0 + MORE, depth))
 
 

@@ -7,6 +7,7 @@ import dataclasses
 import h5py
 import numpy as np
 import pytest
+from tests.errors import refused
 
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
@@ -192,7 +193,7 @@ def test_moved_fit_gives_the_transported_memory():
 
 def test_a_move_that_needs_a_missing_coordinate_is_an_error():
     db = make().select(["a.heave", "a.pitch", "b.heave"])
-    with pytest.raises(DatabaseError, match=r"has a.pitch but not a.surge"):
+    with refused("missing", "a.surge"):
         db.moved_to({"a": (0, 0, 1)})
     # in x, pitch couples with heave only, and translations do not mind
     moved = db.moved_to({"a": (1, 0, 0), "b": (9, 9, 9)})
@@ -211,7 +212,7 @@ def test_select_and_reorder():
     np.testing.assert_array_equal(
         part.memory["fit"].output_matrix, db.memory["fit"].output_matrix[[4, 8]]
     )
-    with pytest.raises(DatabaseError, match="missing"):
+    with refused("label", "coordinates"):
         db.reordered(db.coordinates[:4])
     back = db.reordered(db.coordinates[::-1]).reordered(db.coordinates)
     np.testing.assert_array_equal(back.added_mass, db.added_mass)
@@ -225,7 +226,7 @@ def test_names_that_are_not_there_come_with_the_nearest():
         db.index(["float.heave", "spar.heav"])
     with pytest.raises(DatabaseError, match=r"no body 'flaot'.*did you mean 'float'"):
         db.moved_to({"flaot": (0, 0, 0)})
-    with pytest.raises(DatabaseError, match="same name"):
+    with refused("label", "names"):
         db.renamed({"float": "spar"})
 
 
@@ -237,11 +238,11 @@ def test_shorthands_of_coordinates():
     ]
     assert hdb.expand("a.pitch,a.all", labels) == ["a.pitch", "a.surge", "a.heave"]
     assert hdb.expand("all", labels) == list(labels)
-    with pytest.raises(DatabaseError, match=r"'b.planar' is empty"):
+    with refused("label", "b.planar"):
         hdb.expand("b.planar", labels)
-    with pytest.raises(DatabaseError, match=r"no body 'c'"):
+    with refused("label", "c"):
         hdb.expand("c.all", labels)
-    with pytest.raises(DatabaseError, match=r"did you mean 'a.pitch'"):
+    with refused("label", "a.ptich"):
         hdb.expand("a.ptich", labels)
 
 
@@ -308,34 +309,34 @@ def test_files_are_small_in_single_precision(tmp_path, reference):
 
 
 def test_wrong_files_are_refused(tmp_path):
-    with pytest.raises(DatabaseError, match="no such file"):
+    with refused("missing", file="hydro.h5"):
         hdb.HydroDatabase.read(tmp_path / "hydro.h5")
     with h5py.File(tmp_path / "x.h5", "w") as f:
         f.attrs["format"] = "something"
-    with pytest.raises(DatabaseError, match="not a hydrodae-hydro file"):
+    with refused("format", file="x.h5"):
         hdb.HydroDatabase.read(tmp_path / "x.h5")
     make().write(tmp_path / "y.h5")
     with h5py.File(tmp_path / "y.h5", "a") as f:
         del f["heading"]
-    with pytest.raises(DatabaseError, match=r"y.h5: /heading: missing dataset"):
+    with refused("missing", "heading", file="y.h5"):
         hdb.HydroDatabase.read(tmp_path / "y.h5")
-    with pytest.raises(DatabaseError, match="no folder"):
+    with refused("missing", "folder"):
         make().write(tmp_path / "nowhere" / "z.h5")
 
 
 @pytest.mark.parametrize(
-    ("changes", "message"),
+    ("changes", "reason", "subject"),
     [
-        ({"omega": np.array([1.0, 0.5, 2.0, 3.0])}, "ascending"),
-        ({"heading": np.zeros(3)}, r"froude_krylov has shape"),
-        ({"added_mass_inf": np.full((12, 12), np.nan)}, "not finite"),
-        ({"rho": -1.0}, "must be > 0"),
-        ({"coordinates": ("a.surge",) * 12}, "different labels"),
-        ({"coordinates": ("a.warp", *make().coordinates[1:])}, "coordinates warp of 'a'"),
+        ({"omega": np.array([1.0, 0.5, 2.0, 3.0])}, "frequencies", ""),
+        ({"heading": np.zeros(3)}, "shape", "froude_krylov"),
+        ({"added_mass_inf": np.full((12, 12), np.nan)}, "not_finite", "added_mass_inf"),
+        ({"rho": -1.0}, "value", "water"),
+        ({"coordinates": ("a.surge",) * 12}, "label", "coordinates"),
+        ({"coordinates": ("a.warp", *make().coordinates[1:])}, "label", "a"),
     ],
 )
-def test_inconsistent_tables_are_refused(changes, message):
-    with pytest.raises(DatabaseError, match=message):
+def test_inconsistent_tables_are_refused(changes, reason, subject):
+    with refused(reason, subject):
         make(**changes)
 
 
@@ -355,11 +356,10 @@ def test_dispersion_relation(depth):
 
 
 @pytest.mark.parametrize(
-    ("mesh", "text"),
-    [(np.zeros((0, 4, 3)), "has no panels"), (np.zeros((2, 3, 3)), "must be panels")],
+    ("mesh", "reason"), [(np.zeros((0, 4, 3)), "mesh"), (np.zeros((2, 3, 3)), "shape")]
 )
-def test_a_mesh_has_panels(mesh, text):
-    with pytest.raises(DatabaseError, match=f"mesh of 'a' {text}"):
+def test_a_mesh_has_panels(mesh, reason):
+    with refused(reason, "a"):
         hdb.Body("a", mesh=mesh)
 
 
@@ -381,5 +381,5 @@ def test_a_label_is_a_body_and_what_it_does(text, dof, kind):
 
 @pytest.mark.parametrize("text", ["heave", ".heave", "a."])
 def test_what_is_no_label_is_refused(text):
-    with pytest.raises(DatabaseError, match="is not <body>"):
+    with refused("label", text):
         Label.read(text)

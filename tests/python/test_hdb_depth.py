@@ -7,9 +7,9 @@ import functools
 
 import numpy as np
 import pytest
+from tests.errors import refused
 
 from hydrodae import hdb
-from hydrodae.errors import DatabaseError
 from hydrodae.hdb.checks.depth import depth_findings
 from hydrodae.hdb.readers.reading import read_source
 from hydrodae.hdb.relations.depth import depth_of_bodies, mean_over_headings
@@ -105,7 +105,7 @@ def test_without_headings_all_round_the_depth_is_asked_for(tmp_path):
         diffraction=database.diffraction[:, :1],
     )
     assert told_by(one) is None
-    with pytest.raises(DatabaseError, match=r"--depth"):
+    with refused("missing", "depth"):
         read_source(write(tmp_path / "run", one))
 
 

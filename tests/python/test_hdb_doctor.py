@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.errors import refused
 from tests.python.hdb_command import call
 
 from hydrodae import hdb
@@ -157,13 +158,13 @@ def test_bad_frequencies_at_the_end_are_left_out(nemoh, monkeypatch):
     assert clean.omega.size == nemoh.omega.size - 2
     assert "interpolated 1 of 420 frequencies (0.2%), left out 2 at the ends" in clean.repairs[0]
     assert clean.added_mass[100, 2, 2] == pytest.approx(nemoh.added_mass[100, 2, 2], rel=1e-3)
-    with pytest.raises(DatabaseError, match=r"1% of them and more than 0%"):
+    with refused("frequencies", "irregular"):
         repair(nemoh, ["irregular"], share=0.001)
 
 
 def test_too_many_bad_frequencies_are_not_papered_over(reference):
     db = hdb.read(reference / "hdb" / "rm3_nemoh_v2.3")
-    with pytest.raises(DatabaseError, match=r"too many to interpolate; compute again with a lid"):
+    with refused("frequencies", "irregular"):
         repair(db, ["irregular"])
 
 
@@ -198,7 +199,7 @@ def test_tail_comes_close_to_what_was_cut_off(sphere):
 
 
 def test_no_tail_where_there_is_no_power_law(sphere):
-    with pytest.raises(DatabaseError, match=r"follows no power law above"):
+    with refused("frequencies", "tail"):
         repair(cut(sphere, 1.2), ["tail"])
 
 

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.errors import refused
 
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
@@ -111,7 +112,7 @@ def test_words_for_deep_water(tmp_path, stated):
     assert np.isinf(hdb.read(written).water_depth)
     lines[3] = "-1."
     (written / "Nemoh.cal").write_text("\n".join(lines))
-    with pytest.raises(DatabaseError, match=r"Nemoh\.cal:4: .*0 for infinitely deep"):
+    with refused("value", file="Nemoh.cal", line=4):
         hdb.read(written)
 
 
@@ -156,21 +157,17 @@ def test_broken_files_are_named_with_their_line(tmp_path):
     file = Path("Results") / "RadiationCoefficients.tec"
     lines = (source / file).read_text().splitlines()
     cases = {
-        "cut": (
-            10,
-            " ".join(lines[9].split()[:-1]),
-            ":10: 12 numbers on this line, but a row has 13",
-        ),
-        "word": (11, lines[10].replace(lines[10].split()[3], "garbage"), ":11: 'garbage' is not"),
-        "stars": (9, lines[8].replace(lines[8].split()[2], "*******"), ":9: '.......' is not"),
-        "zone": (14, lines[13].replace("DoF   2", "DoF   5"), ":14: zone of body 1, DoF 5"),
+        "cut": (10, " ".join(lines[9].split()[:-1]), "shape"),
+        "word": (11, lines[10].replace(lines[10].split()[3], "garbage"), "format"),
+        "stars": (9, lines[8].replace(lines[8].split()[2], "*******"), "format"),
+        "zone": (14, lines[13].replace("DoF   2", "DoF   5"), "order"),
     }
-    for name, (number, text, message) in cases.items():
+    for name, (number, text, reason) in cases.items():
         folder = shutil.copytree(source, tmp_path / name)
         changed = list(lines)
         changed[number - 1] = text
         (folder / file).write_text("\n".join(changed))
-        with pytest.raises(DatabaseError, match=f"RadiationCoefficients.tec{message}"):
+        with refused(reason, file=file.name, line=number):
             hdb.read(folder)
 
 
@@ -180,24 +177,24 @@ def test_every_row_too_short_is_found(tmp_path):
     cal = written / "Nemoh.cal"
     text = cal.read_text().replace("2 0 0 1 0 0 -1 ! a 6 DoF 99 comment\n", "")
     cal.write_text(text.replace("6 ! number", "5 ! number"))
-    with pytest.raises(DatabaseError, match=r"6 zones, but Nemoh.cal has 5"):
+    with refused("shape", file="RadiationCoefficients.tec"):
         hdb.read(written)
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "message"),
+    ("old", "new", "reason", "line"),
     [
-        ("1000.0 ! RHO", "water ! RHO", ":2: expected 1 number.* density"),
-        ("1 ! Number of bodies", "1.5 ! Number", ":7: expected a whole number"),
-        ("1 1 0 0 0 0 -1", "1 1 1 0 0 0 -1", ":12: only the six rigid motions"),
-        ("5 0.5 2.5 ! Number of wave", "5 0.5 ! Number of wave", ":27: expected 3 number"),
-        ("5 0.5 2.5 ! Number of wave", "7 5 0.5 2.5 ! Number", ":27: frequency type 7"),
+        ("1000.0 ! RHO", "water ! RHO", "format", 2),
+        ("1 ! Number of bodies", "1.5 ! Number", "format", 7),
+        ("1 1 0 0 0 0 -1", "1 1 1 0 0 0 -1", "unsupported", 12),
+        ("5 0.5 2.5 ! Number of wave", "5 0.5 ! Number of wave", "format", 27),
+        ("5 0.5 2.5 ! Number of wave", "7 5 0.5 2.5 ! Number", "units", 27),
     ],
 )
-def test_errors_in_nemoh_cal_name_the_line(tmp_path, old, new, message):
+def test_errors_in_nemoh_cal_name_the_line(tmp_path, old, new, reason, line):
     folder = NemohFolder().write(tmp_path / "f")
     edit(folder / "Nemoh.cal", old, new)
-    with pytest.raises(DatabaseError, match=f"Nemoh.cal{message}"):
+    with refused(reason, file="Nemoh.cal", line=line):
         hdb.read(folder)
 
 
@@ -205,19 +202,19 @@ def test_moments_about_two_points_are_refused(tmp_path):
     folder = NemohFolder()
     kind, direction, _ = folder.forces[0][4]
     folder.forces[0][4] = (kind, direction, (0.0, 0.0, -2.0))
-    with pytest.raises(DatabaseError, match="several points"):
+    with refused("point"):
         hdb.read(folder.write(tmp_path / "f"))
 
 
 def test_missing_files_are_named(tmp_path):
     (tmp_path / "sphere_nemoh").mkdir()
-    with pytest.raises(DatabaseError, match=r"expected Nemoh.cal"):
+    with refused("missing", "database"):
         hdb.read(tmp_path / "sphere_nemoh")
     with pytest.raises(DatabaseError, match=r"no such file.*did you mean 'sphere_nemoh'"):
         hdb.read(tmp_path / "sphere_nemo")
     folder = NemohFolder().write(tmp_path / "f")
     (folder / "Results" / "RadiationCoefficients.tec").unlink()
-    with pytest.raises(DatabaseError, match=r"no RadiationCoefficients.tec"):
+    with refused("missing", "RadiationCoefficients.tec"):
         hdb.read(folder)
 
 
@@ -270,7 +267,7 @@ def test_rm3_of_nemoh_3_hydrostatics_of_all_bodies_are_refused(reference):
     assert finding.severity == "warning"
     assert "sum of all bodies" in finding.message
     assert finding.value == pytest.approx(1612.495)
-    with pytest.raises(DatabaseError, match="hydrostatics of body 'float'"):
+    with refused("missing", "float"):
         db.hydrostatic_stiffness("float")
 
 

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.errors import refused
 
 from hydrodae import hdb
 from hydrodae.commands import cli
-from hydrodae.errors import DatabaseError
 from hydrodae.hdb.readers.stiffness_file import read_stiffness
 
 CENTER = np.array([0.0, 0.0, -2.5])
@@ -87,8 +87,8 @@ def test_what_is_missing_is_said(
         assert cli.main([*command, *more]) == 2
         assert message in capsys.readouterr().err
     file.write_text("1 2 3 4 5 6\n1 2 x\n")
-    with pytest.raises(DatabaseError, match=r"stiffness.txt:2: expected a row of 6 numbers"):
+    with refused("format", file="stiffness.txt", line=2):
         read_stiffness(file)
     file.write_text(rows(np.eye(6)[:4]))
-    with pytest.raises(DatabaseError, match="expected 6 rows of 6 numbers, got 4"):
+    with refused("shape", file="stiffness.txt"):
         read_stiffness(file)

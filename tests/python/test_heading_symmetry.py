@@ -7,11 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tests.errors import wrong
+from tests.errors import refused, wrong
 
 import hydrodae
 from hydrodae import _core, hdb
-from hydrodae.errors import DatabaseError
 from hydrodae.linear import LinearModel
 
 TWINS = {"port": (0.0, 1.5), "starboard": (0.0, -1.5)}
@@ -125,7 +124,7 @@ def test_frequency_domain_and_runs_use_them_with_yaw_axes_only(tmp_path: Path) -
     np.testing.assert_allclose(force, exact, atol=1e-2 * abs(exact).max())  # 30 degrees apart
     cylinders(np.arange(0.0, 91.0, 30.0), TWINS).write(tmp_path / "hydro.h5")
     mean = hydrodae.Case.read(tmp_path / "case.toml").with_values({"hydro.axes": "mean"})
-    with pytest.raises(DatabaseError, match="-20 deg is outside the headings"):
+    with refused("range", "headings"):
         LinearModel(mean).excitation(np.array([2.0]), heading)
     with wrong("wave.swell.heading_deg"):
         hydrodae.run(mean)

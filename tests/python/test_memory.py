@@ -9,6 +9,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
+from tests.errors import refused
 from tests.python.resonances import (
     ADDED_MASS_INF,
     LABELS,
@@ -103,11 +104,11 @@ def test_passivity_finds_a_narrow_dip() -> None:
 
 
 @pytest.mark.parametrize(
-    ("options", "message"),
-    [({"method": "era"}, "expected auto, modes or hankel"), ({"uniform": 0.0}, "number > 0")],
+    ("options", "reason", "subject"),
+    [({"method": "era"}, "option", "method"), ({"uniform": 0.0}, "option", "uniform")],
 )
-def test_bad_options_of_a_fit(exact: Table, options: dict, message: str) -> None:
-    with pytest.raises(DatabaseError, match=message):
+def test_bad_options_of_a_fit(exact: Table, options: dict, reason: str, subject: str) -> None:
+    with refused(reason, subject):
         fit_memory(exact, LABELS, **options)
 
 
@@ -192,31 +193,31 @@ def test_reading_an_incomplete_fit_names_what_is_missing(
     with h5py.File(tmp_path / "hydro.h5", "w") as file:
         fitted.write(file)
         del file["exact/poles"]
-        with pytest.raises(DatabaseError, match=r"'exact'.*poles.*missing"):
+        with refused("missing", "poles"):
             ExponentialMemory.read(file["exact"])
 
 
 @pytest.mark.parametrize(
-    ("arguments", "message"),
+    ("arguments", "reason", "subject"),
     [
-        ({"inputs": ("float.sway",)}, r"inputs \['float.sway'\] are not in the database"),
-        ({"inputs": ()}, "inputs must be given once each"),
-        ({"inputs": LABELS[:1] * 2}, "inputs must be given once each"),
-        ({"inputs": LABELS, "band": (6.0, 9.0)}, "holds 0 stored frequencies"),
-        ({"inputs": LABELS, "band": (1.0, 0.1)}, "4 are needed"),
+        ({"inputs": ("float.sway",)}, "label", "float.sway"),
+        ({"inputs": ()}, "option", "inputs"),
+        ({"inputs": LABELS[:1] * 2}, "option", "inputs"),
+        ({"inputs": LABELS, "band": (6.0, 9.0)}, "frequencies", "band"),
+        ({"inputs": LABELS, "band": (1.0, 0.1)}, "frequencies", "band"),
     ],
 )
-def test_bad_arguments(exact: Table, arguments: dict, message: str) -> None:
-    with pytest.raises(DatabaseError, match=message):
+def test_bad_arguments(exact: Table, arguments: dict, reason: str, subject: str) -> None:
+    with refused(reason, subject):
         fit_memory(exact, **arguments)
 
 
 def test_bad_data(exact: Table) -> None:
     damping = exact.radiation_damping.copy()
     damping[3, 0, 0] = np.nan
-    with pytest.raises(DatabaseError, match="not finite"):
+    with refused("not_finite"):
         fit_memory(replace(exact, radiation_damping=damping), LABELS)
-    with pytest.raises(DatabaseError, match=r"none of .* has positive radiation damping"):
+    with refused("missing", "radiation_damping"):
         fit_memory(replace(exact, radiation_damping=0 * exact.radiation_damping), LABELS)
     short = replace(
         exact,
@@ -224,7 +225,7 @@ def test_bad_data(exact: Table) -> None:
         added_mass=exact.added_mass[:6],
         radiation_damping=exact.radiation_damping[:6],
     )
-    with pytest.raises(DatabaseError, match="at least 8 ascending frequencies"):
+    with refused("frequencies"):
         fit_memory(short, LABELS)
 
 
@@ -264,7 +265,7 @@ def test_froude_scaling_keeps_the_dimensionless_fit(
 
 
 def test_time_limit_is_checked_and_told(exact: Table) -> None:
-    with pytest.raises(DatabaseError, match="time_limit -1: expected seconds > 0"):
+    with refused("option", "time_limit"):
         fit_memory(exact, LABELS, time_limit=-1.0)
     assert not fit_memory(exact, LABELS).report["time_limited"]
 
@@ -328,15 +329,15 @@ def test_one_group_without_time_is_enough_to_refuse_a_fit_that_is_not_passive(
         return given[-1]
 
     monkeypatch.setattr(Clock, "part", short)
-    with pytest.raises(DatabaseError, match="time limit of 300 s ended the search before any"):
+    with refused("time_limit"):
         fit_memory(noisy, LABELS, max_states=12)
     assert len(given) == 2
 
 
 def test_inconsistent_shapes_are_refused(fitted: ExponentialMemory) -> None:
-    with pytest.raises(DatabaseError, match="shapes"):
+    with refused("shape", "exact"):
         replace(fitted, poles=fitted.poles[:-1])
-    with pytest.raises(DatabaseError, match="not among the outputs"):
+    with refused("label", "exact"):
         replace(fitted, outputs=("a.surge", "a.heave", "a.pitch"))
-    with pytest.raises(DatabaseError, match="Re < 0"):
+    with refused("value", "poles"):
         replace(fitted, poles=-fitted.poles.conj())

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from tests.errors import refused
 from tests.python.test_irf import A_INF, ExactKernel
 
 from hydrodae import hdb
-from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.convolution import taper
 from hydrodae.hdb.database.radiation_kernel import make_kernel
@@ -110,9 +110,9 @@ def test_moved_kernel_is_that_of_the_moved_tables():
 
 
 def test_bad_requests_are_refused():
-    with pytest.raises(DatabaseError, match="too short for steps"):
+    with refused("option", "length"):
         make_kernel(database(), ["buoy.heave"], length=0.1, band=BAND)
-    with pytest.raises(DatabaseError, match="band 20 to 30 rad/s holds 0 stored"):
+    with refused("frequencies", "band"):
         make_kernel(database(), ["buoy.heave"], band=(20.0, 30.0))
-    with pytest.raises(DatabaseError, match="did you mean"):
+    with refused("label", "buoy.haeve"):
         make_kernel(database(), ["buoy.haeve"], band=BAND)

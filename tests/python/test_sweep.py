@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 import xarray
 from scipy.stats import t as student
+from tests.errors import wrong
 from tests.scenes import cart
 
 import hydrodae
@@ -199,7 +200,7 @@ def test_what_is_no_study_is_told_as_what_it_is(folder: Path) -> None:
 def test_no_job_at_a_time_is_refused(folder: Path) -> None:
     study = write_study(folder, '[grid]\n"body.float.mass" = [2.0]\n')
     for jobs in (0, -3):
-        with pytest.raises(hydrodae.CaseError, match="at least 1"):
+        with wrong("jobs"):
             hydrodae.sweep(study, folder / "study.nc", jobs=jobs)
 
 

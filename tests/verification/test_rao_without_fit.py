@@ -7,11 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.errors import wrong
+from tests.errors import refused, wrong
 
 import hydrodae
 from hydrodae.commands.cli import main
-from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.linear import LinearModel, without_memory
 
@@ -56,5 +55,5 @@ def test_responses_without_excitation_say_what_is_missing(
         )
     )
     assert model.modes()[0].period == pytest.approx(4.36, abs=0.01)
-    with pytest.raises(DatabaseError, match="holds no excitation, because its source lacks it"):
+    with refused("missing", "excitation"):
         model.response([1.0])

@@ -332,9 +332,11 @@ def limit(
         Names of units of which one begins with another.
     """
     if (radius is None) == (units is None):
-        raise DatabaseError("limit: give either a radius or units")
+        raise DatabaseError("limit: give either a radius or units").about("option", "limit")
     if radius is not None and not _number(radius) >= 0.0:
-        raise DatabaseError(f"limit: radius {radius!r}: expected a number >= 0 [m]")
+        raise DatabaseError(f"limit: radius {radius!r}: expected a number >= 0 [m]").about(
+            "option", "limit"
+        )
     names = list(database.bodies)
     if radius is not None:
         points = np.array([database.reference_point(name)[:2] for name in names])
@@ -357,7 +359,9 @@ def _unit_of(name: str, units: list[str]) -> str:
     """Longest unit whose prefix the name has."""
     found = [unit for unit in units if name.startswith(f"{unit}_")]
     if not found:
-        raise DatabaseError(f"body {name!r} belongs to none of the units {', '.join(units)}")
+        raise DatabaseError(f"body {name!r} belongs to none of the units {', '.join(units)}").about(
+            "label", name
+        )
     return max(found, key=len)
 
 

@@ -99,5 +99,7 @@ def parse_band(text: str) -> tuple[float, float]:
     """Read LO,HI of --band [rad/s]; raise DatabaseError if it is no range of frequencies."""
     low, high = parse_numbers("--band", text, 2)
     if not 0.0 <= low < high:
-        raise DatabaseError(f"--band {text!r}: expected 0 <= LO < HI [rad/s]")
+        raise DatabaseError(f"--band {text!r}: expected 0 <= LO < HI [rad/s]").about(
+            "option", "band"
+        )
     return low, high

@@ -36,7 +36,9 @@ class Label:
         """
         body, _, motion = text.rpartition(".")
         if not body or not motion:
-            raise DatabaseError(f"{text!r} is not <body>.<dof> ({', '.join(DOFS)}, or a mode)")
+            raise DatabaseError(
+                f"{text!r} is not <body>.<dof> ({', '.join(DOFS)}, or a mode)"
+            ).about("label", text)
         return cls(body, motion)
 
     def __str__(self) -> str:

@@ -287,9 +287,11 @@ class LinearModel:
                 f"the database of the case, {self.database.source or 'no source stated'}, holds no "
                 f"excitation, because its source lacks it: import one with the forces of waves "
                 f"(.3 of WAMIT, ExcitationForce.tec of Nemoh); natural modes need no excitation"
-            )
+            ).about("missing", "excitation")
         if self.database is None and not self._model["water_points"]:
-            raise DatabaseError("the case has neither a hydrodynamic database nor Morison elements")
+            raise DatabaseError(
+                "the case has neither a hydrodynamic database nor Morison elements"
+            ).about("missing", "database")
         force = self._morison_excitation(w, heading)
         return force if self.tables is None else force + self.tables.excitation(w, heading)
 

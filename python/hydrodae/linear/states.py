@@ -39,7 +39,9 @@ def state_matrix(model: LinearModel, memory: ExponentialMemory) -> Array:
         The fit does not cover a coordinate that moves.
     """
     if missing := [label for label in model.hydro_labels if label not in memory.inputs]:
-        raise DatabaseError(f"memory fit '{memory.name}' does not cover {', '.join(missing)}")
+        raise DatabaseError(
+            f"memory fit '{memory.name}' does not cover {', '.join(missing)}"
+        ).about("label", missing[0])
     columns = [memory.inputs.index(label) for label in model.hydro_labels]
     rows = [memory.outputs.index(label) for label in model.hydro_labels]
     free, moves, pair = model.free, model.hydro_map, memory.poles.imag > 0.0
@@ -91,7 +93,7 @@ def decay(model: LinearModel, memory: ExponentialMemory, start: Array, time: Arr
     """
     begin = np.linalg.lstsq(model.free, start, rcond=None)[0]
     if not np.allclose(model.free @ begin, start, atol=1e-9 * max(1.0, np.abs(start).max())):
-        raise DatabaseError("the constraints do not allow this release")
+        raise DatabaseError("the constraints do not allow this release").about("option", "release")
     values, vectors = np.linalg.eig(state_matrix(model, memory))
     first = np.zeros(values.size, dtype=complex)
     first[: begin.size] = begin

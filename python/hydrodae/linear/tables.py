@@ -96,9 +96,8 @@ class WaterTables:
         if omega.size == 0 or omega.min() < low * (1 - 1e-9) or omega.max() > high * (1 + 1e-9):
             raise DatabaseError(
                 f"frequencies {omega.min():g} to {omega.max():g} rad/s are outside the database, "
-                f"{low:g} to {high:g} rad/s (periods {2 * np.pi / high:g} to "
-                f"{2 * np.pi / low:g} s)"
-            )
+                f"{low:g} to {high:g} rad/s (periods {2 * np.pi / high:g} to {2 * np.pi / low:g} s)"
+            ).about("range", "frequencies")
 
     def _lag(self, omega: Array, heading: Array, points: Array) -> Array:
         """Phase k.x of the waves at points (m, 3), (nw, nh, m) [rad]."""
@@ -179,5 +178,5 @@ class WaterTables:
             raise DatabaseError(
                 f"heading {np.degrees(heading):g} deg is outside the headings of the database, "
                 f"{low:g} to {high:g} deg"
-            )
+            ).about("range", "headings")
         return covered

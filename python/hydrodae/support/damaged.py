@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -49,7 +49,7 @@ def _sound(objects: bytes) -> bool:
 
 @contextmanager
 def opened(
-    path: Path, error: type[HydrodaeError], what: str, *, search: bool = False
+    path: Path, error: Callable[[str], HydrodaeError], what: str, *, search: bool = False
 ) -> Iterator[h5py.File]:
     """Open an HDF5 file for reading.
 
@@ -57,9 +57,9 @@ def opened(
     ----------
     path : Path
         An existing file.
-    error : type
-        Raised for everything that its contents make impossible: it is cut off, bytes have changed,
-        a dataset has another shape or type, something is missing.
+    error : callable
+        Makes of a message what is raised for everything that its contents make impossible: it is
+        cut off, bytes have changed, a dataset has another shape or type, something is missing.
     what : str
         Said of the file then, for example "not a readable results file".
     search : bool

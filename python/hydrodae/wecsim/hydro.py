@@ -89,7 +89,7 @@ def read_database(
     try:
         old = list(read(source, rho=rho, gravity=gravity).bodies)
     except DatabaseError as error:
-        if "rho" not in str(error) and "density" not in str(error):
+        if error.subject not in ("rho", "density"):
             raise
         old = list(read(source).bodies)
         file.remarks.assumed(source.name, f"density and gravity of the source, since {error}")

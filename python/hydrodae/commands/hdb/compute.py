@@ -262,13 +262,13 @@ def _body(
             panels = immersed(pose.moved(_panels(name, first, words, size, settings), point))
     except DatabaseError as error:
         hint = ""
-        if "holes" in str(error) and Path(first).is_file():
+        if error.subject == "holes" and Path(first).is_file():
             hint = (
                 f" (with its mirror image, mirror={axes}: the half does not end at that plane)"
                 if axes
                 else " (half of a hull: add :mirror=y, or x, or xy)"
             )
-        raise DatabaseError(f"body {name}: {error}{hint}") from error
+        raise error.within(f"body {name}", hint) from None
     return bem.WettedBody(name, panels, pose.of_point(point))
 
 

@@ -58,8 +58,9 @@ def run(args: argparse.Namespace) -> int:
     try:
         triangles, notes = closed_surface(panels, args.freeboard)
     except DatabaseError as error:
-        more = " (--freeboard HEIGHT)" * ("freeboard" in str(error))
-        raise DatabaseError(f"{args.source}: {error}{more}") from error
+        raise error.within(
+            args.source, " (--freeboard HEIGHT)" * (error.subject == "freeboard")
+        ) from None
     write_stl(triangles, Path(args.output))
     low, high = triangles[..., 2].min(), triangles[..., 2].max()
     for note in notes:
@@ -84,5 +85,7 @@ def _panels(args: argparse.Namespace) -> Array:
     check_body(name, database.bodies)
     mesh = database.bodies[name].mesh
     if mesh is None:
-        raise DatabaseError(f"{args.source}: has no panels of {name!r}; give the mesh file itself")
+        raise DatabaseError(f"has no panels of {name!r}; give the mesh file itself").about(
+            "missing", name, file=args.source
+        )
     return np.asarray(mesh, dtype=float)

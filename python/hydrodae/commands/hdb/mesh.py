@@ -76,4 +76,4 @@ def _surface(text: str) -> tuple[str, Array]:
     try:
         return name, immersed(read_mesh(first) + np.array(shift))
     except DatabaseError as error:
-        raise DatabaseError(f"body {name}: {error}") from error
+        raise error.within(f"body {name}") from None

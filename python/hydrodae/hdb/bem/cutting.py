@@ -98,9 +98,9 @@ def immersed(panels: Array) -> Array:
     if panels[..., 2].max() > 1e-9:
         below = cut_at_water(panels)
         if len(below) == 0:
-            raise DatabaseError("the surface is not in the water")
+            raise DatabaseError("the surface is not in the water").about("mesh", "water")
     elif panels[..., 2].min() >= 0.0:
-        raise DatabaseError("the surface is not in the water")
+        raise DatabaseError("the surface is not in the water").about("mesh", "water")
     # a lid drawn at the water plane is no part of the hull
     below = np.asarray(below[np.abs(below[..., 2]).max(axis=1) > 1e-9], dtype=float)
     area = np.linalg.norm(np.cross(below[:, 2] - below[:, 0], below[:, 3] - below[:, 1]), axis=1)

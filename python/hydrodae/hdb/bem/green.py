@@ -59,7 +59,9 @@ def solve(
     depth = water["water_depth"]
     where = f"w = {omega:g} rad/s in {depth:g} m of water"
     if not (np.isfinite(omega) and np.isfinite(depth)):
-        raise DatabaseError(f"Capytaine has no solution at {where}: {_line(first)}") from first
+        raise DatabaseError(f"Capytaine has no solution at {where}: {_line(first)}").about(
+            "software"
+        ) from first
     bare = cpt.FloatingBody(mesh=device.mesh, dofs=device.dofs, name=device.name)
     solver = cpt.BEMSolver(green_function=FinGreen3D(), method=method)
     try:
@@ -67,7 +69,7 @@ def solve(
     except failures as error:
         raise DatabaseError(
             f"Capytaine has no solution at {where}: {_line(first)}; with FinGreen3D: {_line(error)}"
-        ) from error
+        ).about("software") from error
 
 
 def _problems(

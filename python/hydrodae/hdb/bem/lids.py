@@ -56,7 +56,7 @@ def lid(panels: Array) -> Array:
         raise DatabaseError(
             f"the lid would cover {covered:.3g} of {area:.3g} m2 of the inner water plane: "
             f"irregular frequencies would stay (finer panels may help; --no-lid computes without)"
-        )
+        ).about("mesh", "lid")
     flat = np.concatenate([found, np.zeros((*found.shape[:2], 1))], axis=2)
     upwards = np.array([_shoelace(p) > 0.0 for p in found])
     flat[upwards] = flat[upwards][:, [1, 0, 3, 2]]
@@ -79,7 +79,9 @@ def water_line(panels: Array) -> list[Array]:
     digits = 6 - int(np.floor(np.log10(size)))
     after = {tuple(a.round(digits) + 0.0): b for a, b in zip(starts, ends, strict=True)}
     if len(after) < len(starts):
-        raise DatabaseError("the water line touches itself: no lid can be made (--no-lid)")
+        raise DatabaseError("the water line touches itself: no lid can be made (--no-lid)").about(
+            "mesh", "water line"
+        )
     loops = []
     while after:
         key = first = next(iter(after))
@@ -89,7 +91,7 @@ def water_line(panels: Array) -> list[Array]:
                 raise DatabaseError(
                     f"the water line is not closed at x, y = {key[0]:g}, {key[1]:g} m: the hull "
                     f"has a hole there, or panels whose sides do not match"
-                )
+                ).about("mesh", "water line")
             point = after.pop(key)
             points.append(point)
             key = tuple(point.round(digits) + 0.0)

@@ -142,7 +142,7 @@ def read_profile(path: str | Path) -> Array:
     """
     file = Path(path)
     if not file.is_file():
-        raise DatabaseError(f"{file}: no such file of a profile")
+        raise DatabaseError("no such file of a profile").about("missing", file=file)
     rows = []
     for number, line in enumerate(file.read_text(errors="replace").splitlines(), start=1):
         words = line.split("#")[0].replace(",", " ").replace(";", " ").split()
@@ -151,12 +151,14 @@ def read_profile(path: str | Path) -> Array:
         try:
             r, z = (float(word) for word in words)
         except ValueError:
-            raise DatabaseError(
-                f"{file}:{number}: expected two numbers r z, got {line!r}"
+            raise DatabaseError(f"expected two numbers r z, got {line!r}").about(
+                "format", file=file, line=number
             ) from None
         rows.append((r, z))
     if len(rows) < 2:
-        raise DatabaseError(f"{file}: {len(rows)} points; expected at least two, r z in a line")
+        raise DatabaseError(f"{len(rows)} points; expected at least two, r z in a line").about(
+            "shape", file=file
+        )
     return np.array(rows)
 
 

@@ -80,11 +80,15 @@ class Settings:
         object.__setattr__(self, "omega", w)
         object.__setattr__(self, "heading", np.asarray(self.heading, dtype=float))
         if w.ndim != 1 or w.size < 4 or w.min() <= 0.0 or not np.all(np.diff(w) > 0.0):
-            raise DatabaseError("needs at least 4 frequencies > 0 in ascending order [rad/s]")
+            raise DatabaseError(
+                "needs at least 4 frequencies > 0 in ascending order [rad/s]"
+            ).about("frequencies")
         if not (self.rho > 0.0 and self.gravity > 0.0 and self.water_depth > 0.0):
-            raise DatabaseError("rho, gravity and water_depth must be > 0")
+            raise DatabaseError("rho, gravity and water_depth must be > 0").about("value", "water")
         if self.kochin < 0:
-            raise DatabaseError(f"kochin {self.kochin}: expected a number of angles")
+            raise DatabaseError(f"kochin {self.kochin}: expected a number of angles").about(
+                "option", "kochin"
+            )
 
 
 def compute(
@@ -124,7 +128,7 @@ def compute(
         raise DatabaseError(
             f"body {pair[1]!r} stands in body {pair[0]!r}: their hulls overlap; move one (:x=..), "
             f"or join both into one mesh"
-        )
+        ).about("geometry", pair[1])
     cpt = _capytaine()
     cpt.set_logging("ERROR")
     logging.getLogger("capytaine").setLevel(logging.ERROR)
@@ -154,7 +158,7 @@ def _check_depth(bodies: Sequence[WettedBody], water_depth: float) -> None:
             raise DatabaseError(
                 f"body {body.name!r} goes down to {lowest:g} m, but the water is {water_depth:g} m "
                 "deep: it has to float above the seabed"
-            )
+            ).about("geometry", body.name)
 
 
 def panel_warning(bodies: Sequence[WettedBody], settings: Settings) -> str:
@@ -179,9 +183,11 @@ def _capytaine() -> Any:
     except ImportError as error:
         raise DatabaseError(
             f"computing a database needs Capytaine: {install_command('bem')}"
-        ) from error
+        ).about("software") from error
     if int(capytaine.__version__.split(".")[0]) < 3:
-        raise DatabaseError(f"needs Capytaine 3 or later, found {capytaine.__version__}")
+        raise DatabaseError(f"needs Capytaine 3 or later, found {capytaine.__version__}").about(
+            "software"
+        )
     return capytaine
 
 
@@ -192,7 +198,7 @@ def _mesh(cpt: Any, panels: Array) -> Any:
         raise DatabaseError(
             f"Capytaine keeps {mesh.nb_faces} of {len(panels)} panels: some are double or have no "
             f"area; clean the mesh"
-        )
+        ).about("mesh", "panels")
     return mesh
 
 
@@ -223,14 +229,14 @@ def _check_count(count: int) -> None:
     if count > MOST_PANELS:
         raise DatabaseError(
             f"{count} panels, {MOST_PANELS} are allowed with the lids: take larger panels"
-        )
+        ).about("mesh", "panels")
 
 
 def _lid(body: WettedBody) -> Array:
     try:
         return lid(body.panels)
     except DatabaseError as error:
-        raise DatabaseError(f"{body.name}: {error}") from error
+        raise error.within(body.name) from None
 
 
 def _solve(cpt: Any, device: Any, omega: float, settings: Settings) -> xr.Dataset:
@@ -242,7 +248,7 @@ def _solve(cpt: Any, device: Any, omega: float, settings: Settings) -> xr.Datase
     data = data.assign_coords(influenced_dof=names, radiating_dof=names)
     data.attrs[SHALLOW] = int(shallow)
     if not np.isfinite(omega) and np.isnan(data["added_mass"].values).any():
-        raise DatabaseError("Capytaine gave NaN for the added mass at w = inf")
+        raise DatabaseError("Capytaine gave NaN for the added mass at w = inf").about("software")
     if settings.kochin and np.isfinite(omega):
         # Kochin functions follow from the sources of the indirect method
         sources, _ = solve(cpt, device, omega, water, settings.heading, "indirect")

@@ -195,18 +195,22 @@ def hydrostatics(panels: ArrayLike, point: ArrayLike) -> Hydrostatics:
     """
     corners = np.asarray(panels, dtype=float)
     if not len(corners):
-        raise DatabaseError("the surface displaces no water: it has no panels in it")
+        raise DatabaseError("the surface displaces no water: it has no panels in it").about(
+            "mesh", "water"
+        )
     triangles = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
     _check_size(corners)
     twice = _panels_twice(corners)
     if twice:
-        raise DatabaseError(f"{twice} panels stand in the surface twice, or have no area")
+        raise DatabaseError(f"{twice} panels stand in the surface twice, or have no area").about(
+            "mesh", "panels"
+        )
     turned = _turned_panels(corners)
     if turned:
         raise DatabaseError(
             f"{turned} edges run the same way in both panels that share them: panels are turned "
             f"against each other; let the mesh program unify the normals"
-        )
+        ).about("mesh", "edges")
     area = 0.5 * np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     # exact to second degree: the middles of the three sides
     middle = 0.5 * (triangles + np.roll(triangles, 1, axis=1))
@@ -215,20 +219,24 @@ def hydrostatics(panels: ArrayLike, point: ArrayLike) -> Hydrostatics:
     volume = float(by_axis[2])
     if volume <= 1e-6 * float(np.abs(by_axis).max()) and by_axis.max() > 0.0:
         shown = ", ".join(f"{v:.5g}" for v in by_axis)
-        raise DatabaseError(f"the surface has holes: its volume by x, y, z is {shown} m3")
+        raise DatabaseError(f"the surface has holes: its volume by x, y, z is {shown} m3").about(
+            "mesh", "holes"
+        )
     if volume <= 0.0:
         raise NoWaterError(
             "the surface displaces no water: it is dry, or its normals point inwards"
-        )
+        ).about("mesh", "normals")
     if np.abs(by_axis - volume).max() > LEAK * volume:
         shown = ", ".join(f"{v:.5g}" for v in by_axis)
-        raise DatabaseError(f"the surface has holes: its volume by x, y, z is {shown} m3")
+        raise DatabaseError(f"the surface has holes: its volume by x, y, z is {shown} m3").about(
+            "mesh", "holes"
+        )
     # half a hull that is open at its plane of symmetry has the right volumes all the same
     side = np.abs(area.sum(axis=0)[:2])
     if side.max() > LEAK * np.abs(area[:, :2]).sum(axis=0).max():
         raise DatabaseError(
             f"the surface has holes: {side[0]:.3g} m2 are open along x, {side[1]:.3g} m2 along y"
-        )
+        ).about("mesh", "holes")
     squares = (middle**2).mean(axis=1)
     center = 0.5 * (squares * area).sum(axis=0) / volume
     x, y = middle[..., 0] - np.asarray(point)[0], middle[..., 1] - np.asarray(point)[1]
@@ -244,7 +252,7 @@ def _check_size(corners: Array) -> None:
         raise DatabaseError(
             f"the surface is {length:.4g} m long: is it in millimetres? Mesh files are in metres; "
             f"after the file, :scale=0.001 turns one"
-        )
+        ).about("units", "mesh")
 
 
 def _nodes(corners: Array) -> NDArray[np.intp]:

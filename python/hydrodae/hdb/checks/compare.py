@@ -67,15 +67,17 @@ def compare(a: HydroDatabase, b: HydroDatabase) -> list[Difference]:
         raise DatabaseError(
             f"no coordinates in common: {', '.join(a.coordinates[:4])} ... and "
             f"{', '.join(b.coordinates[:4])} ... (rename bodies with hdb import --bodies)"
-        )
+        ).about("label")
     for body in bodies_of(labels):
         p, q = a.bodies[body].reference_point, b.bodies[body].reference_point
         if p is not None and q is not None and not np.allclose(p, q, atol=1e-3):
-            raise DatabaseError(f"the moments of {body!r} are about {p} and {q}: move one (--cog)")
+            raise DatabaseError(
+                f"the moments of {body!r} are about {p} and {q}: move one (--cog)"
+            ).about("point", body)
     a, b = a.select(labels), b.select(labels)
     inside = (a.omega >= b.omega[0] - 1e-9) & (a.omega <= b.omega[-1] + 1e-9)
     if inside.sum() < 4:
-        raise DatabaseError("the frequencies have no range in common")
+        raise DatabaseError("the frequencies have no range in common").about("frequencies")
     w = a.omega[inside]
     found = []
     for name in ("added_mass", "radiation_damping"):
@@ -122,7 +124,9 @@ def grid_sensitivity(database: HydroDatabase) -> list[tuple[str, float, float]]:
     """
     used = np.flatnonzero(scales(database) > 0.0)
     if used.size == 0:
-        raise DatabaseError("nothing in this database radiates")
+        raise DatabaseError("nothing in this database radiates").about(
+            "missing", "radiation_damping"
+        )
     w = database.omega
     time, kernel = diagonal_kernels(database)
     value = _infinity(database, used)

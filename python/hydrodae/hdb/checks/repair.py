@@ -50,7 +50,7 @@ def repair(
     """
     for word in what:
         if word not in REPAIRS:
-            raise DatabaseError(f"no repair {word!r}{nearest(word, REPAIRS)}")
+            raise DatabaseError(f"no repair {word!r}{nearest(word, REPAIRS)}").about("option", word)
     result = database
     for word in what:
         changed, text = irregular(result, share) if word == "irregular" else REPAIRS[word](result)
@@ -113,7 +113,7 @@ def irregular(db: HydroDatabase, share: float = MOST_REPLACED) -> tuple[HydroDat
             f"{mask.sum()} of {mask.size} frequencies break causality or energy ({shown} rad/s), "
             f"{mask.mean():.0%} of them and more than {share:.0%}: too many to interpolate; "
             "compute again with a lid"
-        )
+        ).about("frequencies", "irregular")
     good = np.flatnonzero(~mask)
     inside = np.zeros_like(mask)
     inside[good[0] : good[-1] + 1] = mask[good[0] : good[-1] + 1]
@@ -190,7 +190,7 @@ def tail(db: HydroDatabase) -> tuple[HydroDatabase, str]:
         raise DatabaseError(
             f"no tail: B of {', '.join(bad) or 'every coordinate'} follows no power law above "
             f"{tails.TAIL_FROM * w[-1]:.3g} rad/s; compute higher frequencies"
-        )
+        ).about("frequencies", "tail")
     power = np.where(active, fitted.power, tails.TAIL_POWERS[1])
     count = int(np.ceil(np.log(TAIL_REACH) / np.log(TAIL_RATIO)))
     more = w[-1] * TAIL_RATIO ** np.arange(1, count + 1)

@@ -46,9 +46,11 @@ class RadiationKernel:
             raise DatabaseError(
                 f"radiation kernel: shapes {shapes} do not fit {nt} times, {n_out} outputs, "
                 f"{n_in} inputs"
-            )
+            ).about("shape", "radiation_kernel")
         if missing := [label for label in self.inputs if label not in self.outputs]:
-            raise DatabaseError(f"radiation kernel: inputs {missing} are not among the outputs")
+            raise DatabaseError(
+                f"radiation kernel: inputs {missing} are not among the outputs"
+            ).about("label", "radiation_kernel")
 
     @property
     def length(self) -> float:

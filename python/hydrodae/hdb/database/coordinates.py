@@ -43,7 +43,9 @@ def check_body(name: str, known: Iterable[str]) -> None:
     """Raise DatabaseError, naming the nearest body, if `name` is not one of `known`."""
     known = list(known)
     if name not in known:
-        raise DatabaseError(f"no body {name!r} in the database{nearest(name, known)}")
+        raise DatabaseError(f"no body {name!r} in the database{nearest(name, known)}").about(
+            "label", name
+        )
 
 
 def index(wanted: Iterable[str], labels: Sequence[str]) -> NDArray[np.intp]:
@@ -58,7 +60,9 @@ def index(wanted: Iterable[str], labels: Sequence[str]) -> NDArray[np.intp]:
     found = []
     for label in wanted:
         if label not in position:
-            raise DatabaseError(f"no coordinate {label!r} in the database{nearest(label, labels)}")
+            raise DatabaseError(
+                f"no coordinate {label!r} in the database{nearest(label, labels)}"
+            ).about("label", label)
         found.append(position[label])
     return np.array(found, dtype=np.intp)
 
@@ -96,14 +100,16 @@ def expand(spec: str, labels: Sequence[str]) -> list[str]:
             check_body(body, bodies_of(labels))
             new = [f"{body}.{dof}" for dof in GROUPS[word] if f"{body}.{dof}" in labels]
             if not new:
-                raise DatabaseError(f"{item!r} is empty: the database has no such coordinates")
+                raise DatabaseError(
+                    f"{item!r} is empty: the database has no such coordinates"
+                ).about("label", item)
         else:
             if item not in labels:
-                raise DatabaseError(_no_coordinates(item, labels))
+                raise DatabaseError(_no_coordinates(item, labels)).about("label", item)
             new = [item]
         found += new
     if not found:
-        raise DatabaseError(f"no coordinates in {spec!r}")
+        raise DatabaseError(f"no coordinates in {spec!r}").about("label", spec)
     return list(dict.fromkeys(found))
 
 
@@ -171,6 +177,6 @@ def transport(
                 raise DatabaseError(
                     f"cannot move the reference point of {body!r}: {owner} has {label} but "
                     f"not {other}, which the move couples with it"
-                )
+                ).about("missing", other)
             x[place[other], column] = value
     return x

@@ -86,7 +86,9 @@ class HydroDatabase(Tables):
         if sorted(labels) != sorted(self.coordinates):
             self.index(labels)
             missing = [c for c in self.coordinates if c not in labels]
-            raise DatabaseError(f"not a permutation of the coordinates; missing: {missing}")
+            raise DatabaseError(f"not a permutation of the coordinates; missing: {missing}").about(
+                "label", "coordinates"
+            )
         return self.select(labels)
 
     def renamed(self, names: Mapping[str, str]) -> Self:
@@ -101,7 +103,9 @@ class HydroDatabase(Tables):
             co.check_body(old, self.bodies)
         new = {name: names.get(name, name) for name in self.bodies}
         if len(set(new.values())) != len(new):
-            raise DatabaseError(f"two bodies would get the same name: {list(new.values())}")
+            raise DatabaseError(f"two bodies would get the same name: {list(new.values())}").about(
+                "label", "names"
+            )
 
         def rename(labels: Sequence[str]) -> tuple[str, ...]:
             return tuple(f"{new[c.body]}.{c.motion}" for c in read_labels(labels))
@@ -142,7 +146,9 @@ class HydroDatabase(Tables):
         for name, value in points.items():
             old, new = self.reference_point(name), np.asarray(value, dtype=float)
             if new.shape != (3,):
-                raise DatabaseError(f"reference point of {name!r} must be 3 numbers [m]")
+                raise DatabaseError(f"reference point of {name!r} must be 3 numbers [m]").about(
+                    "point", name
+                )
             shifts[name] = old - new
             hs = bodies[name].hydrostatics
             moved = None if hs is None else hs.moved(old, new)

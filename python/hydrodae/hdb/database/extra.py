@@ -98,8 +98,8 @@ def read_extra(group: h5py.Group) -> dict[str, SourceTable]:
     for name, node in group.items():
         values, dims = node["values"][()], tuple(str(node.attrs["dims"]).split(","))
         if len(dims) != values.ndim:
-            raise DatabaseError(
-                f"{group.file.filename}: {node.name}: {values.ndim} dimensions, named {dims}"
+            raise DatabaseError(f"{node.name}: {values.ndim} dimensions, named {dims}").about(
+                "shape", node.name, file=group.file.filename
             )
         axes = {}
         for dim, length in zip(dims, values.shape, strict=True):
@@ -107,9 +107,8 @@ def read_extra(group: h5py.Group) -> dict[str, SourceTable]:
                 axes[dim] = _axis(node[f"axis_{dim}"][()])
                 if len(axes[dim]) != length:
                     raise DatabaseError(
-                        f"{group.file.filename}: {node.name}: {len(axes[dim])} values of {dim}, "
-                        f"expected {length}"
-                    )
+                        f"{node.name}: {len(axes[dim])} values of {dim}, expected {length}"
+                    ).about("shape", node.name, file=group.file.filename)
         found[name] = SourceTable(values, dims, axes)
     return found
 

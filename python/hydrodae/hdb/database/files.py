@@ -23,6 +23,7 @@ from hydrodae.hdb.database.layout import (
     Entry,
     read_group,
     read_numbers,
+    refused,
     write_dataset,
 )
 from hydrodae.hdb.database.tables import Body, Tables
@@ -51,17 +52,22 @@ DAMAGED = "incomplete or damaged"
 ROOT_TEXT = ("source", "source_sha256", "generator", "title")
 
 
+def damaged(text: str) -> DatabaseError:
+    """Return the error of a file that the HDF5 library cannot read; it is to name the file."""
+    return DatabaseError(text).about("damaged")
+
+
 def is_hydro_file(path: Path) -> bool:
     """Return whether a file is a `hydro.h5` (by its root attribute)."""
     if not h5py.is_hdf5(path):
         return False
-    with opened(path, DatabaseError, DAMAGED, search=True) as f:
+    with opened(path, damaged, DAMAGED, search=True) as f:
         return bool(_text(f.attrs.get("format", "")) == FORMAT)
 
 
 def is_single(path: str | Path) -> bool:
     """Return whether a `hydro.h5` stores its tables in single precision."""
-    with opened(Path(path), DatabaseError, DAMAGED) as f:
+    with opened(Path(path), damaged, DAMAGED) as f:
         return bool(f["added_mass"].dtype == np.float32)
 
 
@@ -92,7 +98,9 @@ def write(database: Tables, path: str | Path, *, kernel: bool = True, single: bo
     target = Path(path)
     outputs.spare(target, outputs.DATABASE)
     if not target.parent.is_dir():
-        raise DatabaseError(f"cannot write {target}: no folder {target.parent}")
+        raise DatabaseError(f"cannot write {target}: no folder {target.parent}").about(
+            "missing", "folder"
+        )
     partial = target.with_name(target.name + ".part")
     with h5py.File(partial, "w") as f:
         _write_tables(f, database, kernel=kernel, single=single)
@@ -114,16 +122,18 @@ def read(path: str | Path) -> dict[str, Any]:
     """
     source = Path(path)
     if not source.is_file():
-        raise DatabaseError(f"{source}: no such file")
+        raise DatabaseError("no such file").about("missing", file=source)
     if not h5py.is_hdf5(source):
-        raise DatabaseError(f"{source}: not an HDF5 file")
-    with opened(source, DatabaseError, DAMAGED, search=True) as f:
+        raise DatabaseError("not an HDF5 file").about("format", file=source)
+    with opened(source, damaged, DAMAGED, search=True) as f:
         if _text(f.attrs.get("format", "")) != FORMAT:
-            raise DatabaseError(
-                f"{source}: not a {FORMAT} file; make one with 'hydrodae hdb import'"
+            raise DatabaseError(f"not a {FORMAT} file; make one with 'hydrodae hdb import'").about(
+                "format", file=source
             )
         if int(f.attrs.get("format_version", 0)) > FORMAT_VERSION:
-            raise DatabaseError(f"{source}: written by a newer hydrodae (format_version)")
+            raise DatabaseError("written by a newer hydrodae (format_version)").about(
+                "unsupported", "format_version", file=source
+            )
         _refuse_oversized(source, f)
         return _read(f)
 
@@ -134,9 +144,8 @@ def _refuse_oversized(source: Path, f: h5py.File) -> None:
     def check(name: str, node: h5py.Group | h5py.Dataset) -> None:
         if isinstance(node, h5py.Dataset) and node.shape is not None and node.size > MOST_NUMBERS:
             raise DatabaseError(
-                f"{source}: {name}: expected at most {MOST_NUMBERS:,} numbers, found shape "
-                f"{node.shape}"
-            )
+                f"{name}: expected at most {MOST_NUMBERS:,} numbers, found shape {node.shape}"
+            ).about("shape", name, file=source)
 
     f.visititems(check)
 
@@ -195,7 +204,7 @@ def _write_bodies(f: h5py.File, db: Tables) -> None:
 def _read(f: h5py.File) -> dict[str, Any]:
     values = read_group(f, TABLES)
     if missing := [name for name in TABLES if name not in values]:
-        raise DatabaseError(f"{f.filename}: /{missing[0]}: missing dataset")
+        raise refused(f, missing[0], "missing", "missing dataset")
     values = {name.rpartition("/")[2]: value for name, value in values.items()}
     stored = f["radiation_kernel"] if "radiation_kernel" in f else None
     fits = f["memory"] if "memory" in f else {}
@@ -241,7 +250,7 @@ def _whole(group: h5py.Group, layout: Mapping[str, Entry]) -> dict[str, Any]:
     """All datasets of a kernel or a fit, and its report."""
     values = read_group(group, layout)
     if missing := [name for name in layout if name not in values]:
-        raise DatabaseError(f"{group.file.filename}: {group.name}/{missing[0]}: missing dataset")
+        raise refused(group, missing[0], "missing", "missing dataset")
     return {**values, "report": _report(group)}
 
 
@@ -249,10 +258,7 @@ def _read_kernel(group: h5py.Group) -> RadiationKernel:
     values = _whole(group, KERNEL)
     time = values["time"]
     if time.size < 8 or not np.allclose(time, np.linspace(0.0, time[-1], time.size), atol=1e-9):
-        raise DatabaseError(
-            f"{group.file.filename}: {group.name}/time: expected 8 times or more, equally spaced "
-            f"from 0 s"
-        )
+        raise refused(group, "time", "shape", "expected 8 times or more, equally spaced from 0 s")
     return RadiationKernel(values=values.pop("kernel"), **values)
 
 
@@ -270,9 +276,9 @@ def _report(group: h5py.Group) -> dict[str, Any]:
         values = value if isinstance(value, tuple) else (value,)
         if len(values) != count or not all(isinstance(v, int | float) for v in values):
             raise DatabaseError(
-                f"{group.file.filename}: {group.name}: attribute {key} is {value!r}, expected "
+                f"{group.name}: attribute {key} is {value!r}, expected "
                 f"{count} number{'s' if count > 1 else ''}"
-            )
+            ).about("shape", key, file=group.file.filename)
     return report
 
 

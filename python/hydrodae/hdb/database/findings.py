@@ -82,7 +82,9 @@ class CheckReport:
         for word in accepted:
             if word not in names:
                 found = ", ".join(dict.fromkeys(names)) or "none"
-                raise DatabaseError(f"--accept {word!r}: no error of that name (errors: {found})")
+                raise DatabaseError(
+                    f"--accept {word!r}: no error of that name (errors: {found})"
+                ).about("option", word)
         return [f for f in self.of("error") if f.name not in accepted]
 
     def __str__(self) -> str:

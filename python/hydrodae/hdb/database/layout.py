@@ -15,7 +15,7 @@ from typing import Any
 import h5py
 import numpy as np
 
-from hydrodae.errors import DatabaseError
+from hydrodae.errors import DatabaseError, Refusal
 
 MASS, RATE, FORCE = "kg, kg m, kg m2", "N s/m, N s, N m s", "N/m, N m/m"
 STIFFNESS = "N/m, N, N m"
@@ -126,15 +126,26 @@ def read_numbers(group: h5py.Group, name: str, shape: tuple[int, ...]) -> Any:
     DatabaseError
         It is missing, or of another type or shape.
     """
-    where = f"{group.file.filename}: {group.name}: attribute {name}"
     if name not in group.attrs:
-        raise DatabaseError(f"{where}: missing")
+        raise refused(group, name, "missing", "missing", ": attribute ")
     values = np.asarray(group.attrs[name])
     if values.dtype.kind not in "fiu":
-        raise DatabaseError(f"{where}: expected numbers, found {values.dtype}")
+        raise refused(
+            group, name, "format", f"expected numbers, found {values.dtype}", ": attribute "
+        )
     if values.shape != shape:
-        raise DatabaseError(f"{where}: expected shape {shape}, found {values.shape}")
+        raise refused(
+            group, name, "shape", f"expected shape {shape}, found {values.shape}", ": attribute "
+        )
     return float(values) if shape == () else values.astype(float)
+
+
+def refused(
+    group: h5py.Group, name: str, reason: Refusal, fault: str, between: str = "/"
+) -> DatabaseError:
+    """Return the error about a dataset of a group, or, with ": attribute ", an attribute."""
+    place = f"{group.name}{between}{name}".replace("//", "/")
+    return DatabaseError(f"{place}: {fault}").about(reason, name, file=group.file.filename)
 
 
 def write_dataset(group: h5py.Group, name: str, entry: Entry, value: Any) -> None:
@@ -150,12 +161,11 @@ def write_dataset(group: h5py.Group, name: str, entry: Entry, value: Any) -> Non
 
 
 def _read(group: h5py.Group, name: str, entry: Entry, sizes: dict[str, int]) -> Any:
-    where = f"{group.file.filename}: {group.name.rstrip('/')}/{name}"
     node = group[name]
     if not isinstance(node, h5py.Dataset) or node.shape is None:
-        raise DatabaseError(f"{where}: expected a dataset")
+        raise refused(group, name, "format", "expected a dataset")
     if node.dtype.kind not in entry.kind.letters:
-        raise DatabaseError(f"{where}: expected {entry.kind.called}, found {node.dtype}")
+        raise refused(group, name, "format", f"expected {entry.kind.called}, found {node.dtype}")
     if len(node.shape) == len(entry.dims):
         for dim, length in zip(entry.dims, node.shape, strict=True):
             if isinstance(dim, str):
@@ -163,12 +173,12 @@ def _read(group: h5py.Group, name: str, entry: Entry, sizes: dict[str, int]) -> 
     wanted = tuple(sizes.get(d, d) if isinstance(d, str) else d for d in entry.dims)
     if node.shape != wanted:
         text = ", ".join(map(str, wanted)) + ("," if len(wanted) == 1 else "")
-        raise DatabaseError(f"{where}: expected shape ({text}), found {node.shape}")
+        raise refused(group, name, "shape", f"expected shape ({text}), found {node.shape}")
     values = np.asarray(node[()])
     if entry.kind.is_text:
         return tuple(v.decode("ascii") if isinstance(v, bytes) else str(v) for v in values)
     if not np.all(np.isfinite(values)):
-        raise DatabaseError(f"{where}: holds values that are not finite")
+        raise refused(group, name, "not_finite", "holds values that are not finite")
     return values.astype(entry.kind.number())
 
 
@@ -176,5 +186,7 @@ def _labels(labels: Any) -> np.ndarray[Any, Any]:
     labels = list(labels)
     long = [label for label in labels if len(label.encode("ascii", "replace")) > 32]
     if long:
-        raise DatabaseError(f"label {long[0]!r} is longer than 32 characters: rename the body")
+        raise DatabaseError(
+            f"label {long[0]!r} is longer than 32 characters: rename the body"
+        ).about("label", long[0])
     return np.array(labels, dtype="S32")

@@ -47,7 +47,9 @@ def blended(
     """
     x = np.asarray(values, dtype=float)
     if not x[0] <= pose <= x[-1]:
-        raise DatabaseError(f"the pose {pose:g} is outside the tables, {x[0]:g} to {x[-1]:g}")
+        raise DatabaseError(
+            f"the pose {pose:g} is outside the tables, {x[0]:g} to {x[-1]:g}"
+        ).about("range", "pose")
     for table in tables:
         for name in ("omega", "heading"):
             own, common = getattr(table, name), getattr(database, name)
@@ -55,7 +57,7 @@ def blended(
                 raise DatabaseError(
                     f"{table.source}: its {name} is not that of {database.source}; "
                     f"compute all poses for the same frequencies and headings"
-                )
+                ).about("conflict", name)
     labels = [str(label) for label in database.labels if label.body == body]
     mine = database.index(labels)
 

@@ -101,7 +101,7 @@ def make_kernel(
     if not length >= 10.0 * step:
         raise DatabaseError(
             f"radiation kernel: a memory of {length:g} s is too short for steps of {step:.3g} s"
-        )
+        ).about("option", "length")
     time: Array = step * np.arange(int(np.ceil(length / step - 1e-9)) + 1, dtype=float)
     values = irf.radiation_kernel(omega, tables.damping, time, extrapolate=True)
     largest = (np.abs(diagonal).max(axis=0) / own.scale).max(initial=0.0)
@@ -122,7 +122,9 @@ def make_kernel(
         "rest": float((late / np.where(whole > 0.0, whole, 1.0)).max(initial=0.0)),
     }
     if not np.hypot(*_errors(report)) <= limit:
-        raise DatabaseError(_refusal(tables, mass, report, limit, given))
+        raise DatabaseError(_refusal(tables, mass, report, limit, given)).about(
+            "target", "radiation_kernel"
+        )
     return RadiationKernel(time, values, inputs, labels, mass, report)
 
 
@@ -175,5 +177,5 @@ def _asked(database: Tables, band: tuple[float, float] | None) -> tuple[float, f
         raise DatabaseError(
             f"radiation kernel: the band {low:g} to {high:g} rad/s holds {inside} stored "
             f"frequencies, 4 are needed; give `band` (--band) around the device's resonances"
-        )
+        ).about("frequencies", "band")
     return low, high

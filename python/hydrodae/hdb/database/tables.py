@@ -52,18 +52,24 @@ class Body:
 
     def __post_init__(self) -> None:
         if co.body_name(self.name) != self.name:
-            raise DatabaseError(f"body name {self.name!r}: use letters, digits, _ and - only")
+            raise DatabaseError(
+                f"body name {self.name!r}: use letters, digits, _ and - only"
+            ).about("label", self.name)
         if self.reference_point is not None:
             point = np.array(self.reference_point, dtype=float)
             if point.shape != (3,) or not np.all(np.isfinite(point)):
-                raise DatabaseError(f"reference point of {self.name!r} must be 3 numbers [m]")
+                raise DatabaseError(
+                    f"reference point of {self.name!r} must be 3 numbers [m]"
+                ).about("point", self.name)
             object.__setattr__(self, "reference_point", point)
         if self.mesh is not None:
             mesh = np.array(self.mesh, dtype=float)
             if mesh.ndim != 3 or mesh.shape[1:] != (4, 3) or not np.all(np.isfinite(mesh)):
-                raise DatabaseError(f"mesh of {self.name!r} must be panels (n, 4, 3) [m]")
+                raise DatabaseError(f"mesh of {self.name!r} must be panels (n, 4, 3) [m]").about(
+                    "shape", self.name
+                )
             if not len(mesh):
-                raise DatabaseError(f"mesh of {self.name!r} has no panels")
+                raise DatabaseError(f"mesh of {self.name!r} has no panels").about("mesh", self.name)
             object.__setattr__(self, "mesh", mesh)
 
 
@@ -145,10 +151,14 @@ class Tables:
     def _check(self) -> None:
         n, nw, nh = len(self.coordinates), self.omega.size, self.heading.size
         if len(set(self.coordinates)) != n or n == 0:
-            raise DatabaseError(f"coordinates must be different labels: {self.coordinates}")
+            raise DatabaseError(f"coordinates must be different labels: {self.coordinates}").about(
+                "label", "coordinates"
+            )
         names = bodies_of(self.coordinates)
         if set(names) != set(self.bodies):
-            raise DatabaseError(f"bodies {list(self.bodies)} do not fit the coordinates {names}")
+            raise DatabaseError(
+                f"bodies {list(self.bodies)} do not fit the coordinates {names}"
+            ).about("label", "bodies")
         for name, body in self.bodies.items():
             modes = modes_of(name, self.coordinates)
             found = 6 if body.mode_stiffness is None else len(body.mode_stiffness)
@@ -156,7 +166,7 @@ class Tables:
                 raise DatabaseError(
                     f"coordinates {', '.join(modes)} of {name!r}: expected a mode_stiffness of "
                     f"6 + {len(modes)} rows, or one of {', '.join(DOFS)}"
-                )
+                ).about("label", name)
         shapes = {
             "omega": (nw,),
             "added_mass": (nw, n, n),
@@ -170,13 +180,17 @@ class Tables:
         for name, shape in shapes.items():
             value = getattr(self, name)
             if value.shape != shape:
-                raise DatabaseError(f"{name} has shape {value.shape}, expected {shape}")
+                raise DatabaseError(f"{name} has shape {value.shape}, expected {shape}").about(
+                    "shape", name
+                )
             if not np.all(np.isfinite(value)):
-                raise DatabaseError(f"{name} holds values that are not finite")
+                raise DatabaseError(f"{name} holds values that are not finite").about(
+                    "not_finite", name
+                )
         if nw == 0 or self.omega[0] <= 0.0 or not np.all(np.diff(self.omega) > 0.0):
-            raise DatabaseError("omega must be ascending and > 0 [rad/s]")
+            raise DatabaseError("omega must be ascending and > 0 [rad/s]").about("frequencies")
         if not (self.rho > 0.0 and self.gravity > 0.0 and self.water_depth > 0.0):
-            raise DatabaseError("rho, gravity and water_depth must be > 0")
+            raise DatabaseError("rho, gravity and water_depth must be > 0").about("value", "water")
 
     @property
     def labels(self) -> list[Label]:
@@ -208,7 +222,9 @@ class Tables:
         """
         point, hs = self.reference_point(body), self.bodies[body].hydrostatics
         if hs is None:
-            raise DatabaseError(f"the hydrostatics of body {body!r} are not in the database")
+            raise DatabaseError(f"the hydrostatics of body {body!r} are not in the database").about(
+                "missing", body
+            )
         return hs.stiffness(point, self.rho, self.gravity)
 
     def reference_point(self, body: str) -> Array:
@@ -225,7 +241,7 @@ class Tables:
             raise DatabaseError(
                 f"the source does not say about which point the moments of {body!r} are; "
                 f"state it (source_points, --origin {body}=x,y,z)"
-            )
+            ).about("point", body)
         return point
 
     def phase_point(self, body: str) -> Array:

@@ -153,7 +153,9 @@ def write_capytaine(database: HydroDatabase, path: str | Path) -> None:
     """
     db, target = database, Path(path)
     if any(label.is_mode for label in db.labels):
-        raise DatabaseError("this format has no modes of bodies: select the rigid coordinates")
+        raise DatabaseError(
+            "this format has no modes of bodies: select the rigid coordinates"
+        ).about("unsupported", "modes")
     dofs = [f"{label.body}__{label.motion.capitalize()}" for label in db.labels]
     n, nh = len(dofs), db.heading.size
     square = ("omega", "influenced_dof", "radiating_dof")
@@ -222,21 +224,25 @@ def _six_of_each(db: HydroDatabase) -> tuple[str, ...]:
         raise DatabaseError(
             f"a BEMIO file holds all six coordinates of every body; missing: {', '.join(missing)} "
             f"(write a Capytaine netCDF instead)"
-        )
+        ).about("missing", missing[0])
     return wanted
 
 
 def _hydrostatics(db: HydroDatabase, name: str) -> Hydrostatics:
     hs = db.bodies[name].hydrostatics
     if hs is None:
-        raise DatabaseError(f"the hydrostatics of body {name!r} are not in the database")
+        raise DatabaseError(f"the hydrostatics of body {name!r} are not in the database").about(
+            "missing", name
+        )
     return hs
 
 
 def _partial(target: Path, kind: str) -> Path:
     outputs.spare(target, kind)
     if not target.parent.is_dir():
-        raise DatabaseError(f"cannot write {target}: no folder {target.parent}")
+        raise DatabaseError(f"cannot write {target}: no folder {target.parent}").about(
+            "missing", "folder"
+        )
     return target.with_name(target.name + ".part")
 
 

@@ -51,7 +51,9 @@ def closed_surface(panels: ArrayLike, freeboard: float | None = None) -> tuple[A
     if freeboard is not None:
         more = walls_and_decks(p, freeboard)
         if len(more) == 0:
-            raise DatabaseError("the surface has no open water line at z = 0 to extend")
+            raise DatabaseError("the surface has no open water line at z = 0 to extend").about(
+                "mesh", "water line"
+            )
         triangles = np.concatenate([triangles, more])
         notes.append(f"extended by {freeboard:g} m above z = 0 and closed by a deck")
     _check_closed(triangles, near)
@@ -60,7 +62,7 @@ def closed_surface(panels: ArrayLike, freeboard: float | None = None) -> tuple[A
         triangles = triangles[:, ::-1]
         notes.append("reversed: the normals pointed inwards")
     elif volume == 0.0:
-        raise DatabaseError("the surface encloses no volume")
+        raise DatabaseError("the surface encloses no volume").about("mesh", "volume")
     return np.asarray(triangles, dtype=float), notes
 
 
@@ -95,7 +97,7 @@ def _check_closed(triangles: Array, near: float) -> None:
     raise DatabaseError(
         f"the surface is not closed: {alone.size} edges lack a neighbour, one of them between "
         f"{text}; {advice}"
-    )
+    ).about("mesh", "freeboard" if flat else "holes")
 
 
 def write_stl(triangles: Array, file: Path) -> None:

@@ -37,11 +37,15 @@ class Hydrostatics:
         for name, size in (("center_of_buoyancy", 3), ("waterplane_moments", 5)):
             value = np.array(getattr(self, name), dtype=float)
             if value.shape != (size,):
-                raise DatabaseError(f"{name} needs {size} numbers, got {value.shape}")
+                raise DatabaseError(f"{name} needs {size} numbers, got {value.shape}").about(
+                    "shape", name
+                )
             object.__setattr__(self, name, value)
         numbers = [self.displaced_volume, self.waterplane_area]
         if not np.all(np.isfinite([*numbers, *self.center_of_buoyancy, *self.waterplane_moments])):
-            raise DatabaseError("hydrostatics hold values that are not finite")
+            raise DatabaseError("hydrostatics hold values that are not finite").about(
+                "not_finite", "hydrostatics"
+            )
 
     def stiffness(self, point: ArrayLike, rho: float, gravity: float) -> Array:
         """Buoyancy stiffness about the reference point, weight not included.

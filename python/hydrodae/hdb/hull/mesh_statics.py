@@ -38,15 +38,17 @@ def mesh_statics(panels: ArrayLike, point: ArrayLike) -> Hydrostatics:
     """
     corners = np.asarray(panels, dtype=float)
     if not len(corners):
-        raise DatabaseError("a mesh without panels")
+        raise DatabaseError("a mesh without panels").about("mesh", "panels")
     size = float(np.ptp(corners.reshape(-1, 3), axis=0).max())
     heights = corners[..., 2]
     if np.any((heights.min(axis=1) < -1e-4 * size) & (heights.max(axis=1) > 1e-4 * size)):
-        raise DatabaseError("panels cross the still water z = 0: cut the mesh there")
+        raise DatabaseError("panels cross the still water z = 0: cut the mesh there").about(
+            "mesh", "water line"
+        )
     corners = corners[heights.max(axis=1) <= 1e-4 * size]
     corners = corners[corners[..., 2].min(axis=1) < -1e-9 * size]  # no lid
     if not len(corners):
-        raise DatabaseError("no panels below the still water z = 0")
+        raise DatabaseError("no panels below the still water z = 0").about("mesh", "water")
     triangles = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
     normal = 0.5 * np.cross(
         triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
@@ -63,7 +65,7 @@ def mesh_statics(panels: ArrayLike, point: ArrayLike) -> Hydrostatics:
     sign = 1.0 if volume > 0.0 else -1.0
     volume *= sign
     if volume <= 0.0:
-        raise DatabaseError("the panels enclose no volume below z = 0")
+        raise DatabaseError("the panels enclose no volume below z = 0").about("mesh", "volume")
     center = sign * np.array([over(x * z), over(y * z), 0.5 * over(z**2)]) / volume
     px, py, _ = np.asarray(point, dtype=float)
     u, v = x - px, y - py

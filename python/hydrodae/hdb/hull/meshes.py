@@ -33,7 +33,7 @@ def read_mesh(path: str | Path) -> Array:
     """
     file = Path(path)
     if not file.is_file():
-        raise DatabaseError(f"{file}: no such mesh file")
+        raise DatabaseError("no such mesh file").about("missing", file=file)
     raw = file.read_bytes()
     if raw[:11] == b"$MeshFormat":
         return _gmsh(file, raw.decode(errors="replace").splitlines())
@@ -51,7 +51,9 @@ def read_mesh(path: str | Path) -> Array:
         return _gdf(file, lines)
     if file.suffix.lower() == ".pnl":
         return _pnl(file, lines)
-    raise DatabaseError(f"{file}: expected a mesh of STL, OBJ, GDF, PNL, Nemoh or GMSH")
+    raise DatabaseError("expected a mesh of STL, OBJ, GDF, PNL, Nemoh or GMSH").about(
+        "format", file=file
+    )
 
 
 def triangles_of(panels: ArrayLike) -> Array:
@@ -81,7 +83,7 @@ def mirrored(panels: Array, axes: str) -> Array:
         Other axes, or panels on both sides of the plane: then it is no half.
     """
     if axes not in ("x", "y", "xy", "yx"):
-        raise DatabaseError(f"mirror={axes}: expected x, y or xy")
+        raise DatabaseError(f"mirror={axes}: expected x, y or xy").about("option", "mirror")
     size = float(np.abs(panels).max())
     for axis in (("x", "y").index(letter) for letter in axes):
         along = panels[..., axis]
@@ -89,7 +91,7 @@ def mirrored(panels: Array, axes: str) -> Array:
             raise DatabaseError(
                 f"mirror={axes}: the panels lie on both sides of {'xy'[axis]} = 0, from "
                 f"{along.min():g} to {along.max():g} m: this is no half"
-            )
+            ).about("mesh", "mirror")
         panels = np.concatenate([panels, _mirror_image(panels, axis)])
     return panels
 
@@ -113,7 +115,9 @@ def _stl_text(path: Path, lines: list[str]) -> Array:
         if words[:1] == ["vertex"]:
             corners.append(_floats(path, i, words[1:], 3, "vertex x y z"))
     if not corners or len(corners) % 3:
-        raise DatabaseError(f"{path}: {len(corners)} corners: expected three a facet")
+        raise DatabaseError(f"{len(corners)} corners: expected three a facet").about(
+            "shape", file=path
+        )
     return _quads(np.array(corners).reshape(-1, 3, 3))
 
 
@@ -170,8 +174,8 @@ def _gdf(path: Path, lines: list[str]) -> Array:
         numbers += _floats(path, i, words, len(words), "coordinates")
     if len(numbers) < 12 * count:
         raise DatabaseError(
-            f"{path}: {len(numbers)} coordinates for {count:g} panels: expected 12 a panel"
-        )
+            f"{len(numbers)} coordinates for {count:g} panels: expected 12 a panel"
+        ).about("shape", file=path)
     found = np.array(numbers[: 12 * int(count)]).reshape(-1, 4, 3).tolist()
     return _with_mirrored(path, found, [axis for axis in (0, 1) if symmetric[axis] == 1.0])
 
@@ -185,8 +189,8 @@ def _pnl(path: Path, lines: list[str]) -> Array:
     count, nodes = int(first[0]), int(first[1])
     if len(rows) < 1 + nodes + count:
         raise DatabaseError(
-            f"{path}: {len(rows) - 1} lines for {nodes} nodes and {count} panels: expected one each"
-        )
+            f"{len(rows) - 1} lines for {nodes} nodes and {count} panels: expected one each"
+        ).about("shape", file=path)
     points = {}
     for i, words in rows[1 : 1 + nodes]:
         values = _floats(path, i, words, 4, "node x y z")
@@ -203,11 +207,13 @@ def _gmsh(path: Path, lines: list[str]) -> Array:
     words = lines[1].split() if len(lines) > 1 else []
     version = words[0] if words else "?"
     if len(words) < 2 or words[1] != "0" or version not in ("2.2", "4.1"):
-        raise DatabaseError(f"{path}:2: expected an ASCII file of GMSH 2.2 or 4.1, got {version}")
+        raise DatabaseError(f"expected an ASCII file of GMSH 2.2 or 4.1, got {version}").about(
+            "format", file=path, line=2
+        )
     sections = {line.strip(): i for i, line in enumerate(lines) if line.startswith("$")}
     for name in ("$Nodes", "$Elements"):
         if name not in sections:
-            raise DatabaseError(f"{path}: no section {name}")
+            raise DatabaseError(f"no section {name}").about("missing", name, file=path)
     reader = _gmsh_2 if version == "2.2" else _gmsh_4
     panels = reader(path, lines, sections["$Nodes"] + 1, sections["$Elements"] + 1)
     return _with_mirrored(path, panels, [])
@@ -253,7 +259,7 @@ def _gmsh_4(path: Path, lines: list[str], nodes: int, elements: int) -> list[lis
 def _with_mirrored(path: Path, panels: list[list[list[float]]], axes: list[int]) -> Array:
     """Panels as one array, and their mirror images across the planes normal to `axes`."""
     if not panels:
-        raise DatabaseError(f"{path}: no panels in it")
+        raise DatabaseError("no panels in it").about("mesh", "panels", file=path)
     result = np.array([p if len(p) == 4 else [*p, p[-1]] for p in panels], dtype=float)
     result = _triangles_last(result)
     for axis in axes:
@@ -275,7 +281,9 @@ def _quads(triangles: Array) -> Array:
 
 def _point(path: Path, line: int, points: dict[int, list[float]], number: int) -> list[float]:
     if number not in points:
-        raise DatabaseError(f"{path}:{line}: no point {number}")
+        raise DatabaseError(f"no point {number}").about(
+            "missing", f"point {number}", file=path, line=line
+        )
     return points[number]
 
 
@@ -285,5 +293,7 @@ def _floats(path: Path, line: int, words: list[str], count: int, meaning: str) -
     except ValueError:
         values = []
     if len(values) != count or not np.all(np.isfinite(values)):
-        raise DatabaseError(f"{path}:{line}: expected {meaning}, got {' '.join(words)[:60]!r}")
+        raise DatabaseError(f"expected {meaning}, got {' '.join(words)[:60]!r}").about(
+            "format", file=path, line=line
+        )
     return values

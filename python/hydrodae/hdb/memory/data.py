@@ -105,11 +105,15 @@ def gather(
         if unknown := [label for label in wanted if label not in labels]:
             raise DatabaseError(
                 f"memory fit: {name} {unknown} are not in the database (it has {', '.join(labels)})"
-            )
+            ).about("label", unknown[0])
         if len(set(wanted)) != len(wanted) or not wanted:
-            raise DatabaseError(f"memory fit: {name} must be given once each, got {list(wanted)}")
+            raise DatabaseError(
+                f"memory fit: {name} must be given once each, got {list(wanted)}"
+            ).about("option", name)
     if missing := [label for label in inputs if label not in outputs]:
-        raise DatabaseError(f"memory fit: inputs {missing} must be among the outputs")
+        raise DatabaseError(f"memory fit: inputs {missing} must be among the outputs").about(
+            "label", missing[0]
+        )
     extra = tuple(label for label in outputs if label not in inputs)
     columns = [labels.index(label) for label in inputs]
     rows = columns + [labels.index(label) for label in extra]
@@ -125,9 +129,11 @@ def gather(
     if not np.all(np.isfinite(impedance)):
         raise DatabaseError(
             "memory fit: added mass or radiation damping is not finite at some frequency"
-        )
+        ).about("not_finite")
     if omega.size < 8 or np.any(np.diff(omega) <= 0.0):
-        raise DatabaseError("memory fit: at least 8 ascending frequencies are needed")
+        raise DatabaseError("memory fit: at least 8 ascending frequencies are needed").about(
+            "frequencies"
+        )
     n = len(columns)
     square = 0.5 * (impedance[:, :n] + impedance[:, :n].transpose(0, 2, 1))
     peaks = np.einsum("wii->wi", damping[keep]).max(axis=0)
@@ -136,7 +142,9 @@ def gather(
     own = peaks[columns]
     active = (own > NOISE * largest) & (own > 0.0)
     if not np.any(active):
-        raise DatabaseError(f"memory fit: none of {list(inputs)} has positive radiation damping")
+        raise DatabaseError(
+            f"memory fit: none of {list(inputs)} has positive radiation damping"
+        ).about("missing", "radiation_damping")
     scale = np.where(active, np.sqrt(np.maximum(own, 1e-300)), 1.0)
     return ImpedanceData(
         omega,

@@ -152,11 +152,17 @@ def fit_memory(
         else inputs + tuple(label for label in outputs if label not in inputs)
     )
     if method not in METHODS:
-        raise DatabaseError(f"memory fit: method {method!r}: expected auto, modes or hankel")
+        raise DatabaseError(f"memory fit: method {method!r}: expected auto, modes or hankel").about(
+            "option", "method"
+        )
     if uniform is not None and not uniform > 0.0:
-        raise DatabaseError(f"memory fit: uniform {uniform:g}: expected a number > 0")
+        raise DatabaseError(f"memory fit: uniform {uniform:g}: expected a number > 0").about(
+            "option", "uniform"
+        )
     if not time_limit > 0.0:
-        raise DatabaseError(f"memory fit: time_limit {time_limit:g}: expected seconds > 0")
+        raise DatabaseError(f"memory fit: time_limit {time_limit:g}: expected seconds > 0").about(
+            "option", "time_limit"
+        )
     clock = Clock(time_limit)
     data = prepare.gather(database, inputs, outputs, prepare.UNIFORM_FLOOR * (uniform or 0.0))
     data = replace(data, searches=data.searches if searches is None else searches)
@@ -193,7 +199,7 @@ def fit_memory(
             f"memory fit '{name}': the time limit of {time_limit:g} s ended the search before any "
             "fit was passive: there is no fit. Give it more time (--time-limit), or run with "
             'radiation = "convolution", which needs the kernel (hdb kernel) and no fit'
-        )
+        ).about("time_limit", name)
     _warn(name, report)
     return replace(memory, report=report)
 
@@ -274,7 +280,7 @@ def _checked_band(omega: Array, band: tuple[float, float]) -> tuple[float, float
             f"memory fit: the band {low:g} to {high:g} rad/s holds {inside} stored frequencies "
             f"({omega[0]:g} to {omega[-1]:g} rad/s), 4 are needed; give `band` around the "
             "device's resonances"
-        )
+        ).about("frequencies", "band")
     return low, high
 
 

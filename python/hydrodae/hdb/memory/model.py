@@ -69,13 +69,15 @@ class ExponentialMemory:
             raise DatabaseError(
                 f"memory fit '{self.name}': shapes {shapes} do not fit "
                 f"{n_in} inputs, {n_out} outputs"
-            )
+            ).about("shape", self.name)
         if missing := [label for label in self.inputs if label not in self.outputs]:
             raise DatabaseError(
                 f"memory fit '{self.name}': inputs {missing} are not among the outputs"
-            )
+            ).about("label", self.name)
         if np.any(self.poles.imag < 0.0) or np.any(self.poles.real >= 0.0):
-            raise DatabaseError(f"memory fit '{self.name}': poles must have Re < 0 and Im >= 0")
+            raise DatabaseError(
+                f"memory fit '{self.name}': poles must have Re < 0 and Im >= 0"
+            ).about("value", "poles")
 
     @property
     def n_states(self) -> int:
@@ -203,7 +205,9 @@ class ExponentialMemory:
         name = str(group.name).rsplit("/", 1)[-1]
         keys = ("inputs", "outputs", "poles", "input_matrix", "output_matrix", "added_mass_inf")
         if missing := [key for key in keys if key not in group]:
-            raise DatabaseError(f"memory fit '{name}': data sets {missing} are missing")
+            raise DatabaseError(f"memory fit '{name}': data sets {missing} are missing").about(
+                "missing", missing[0]
+            )
         inputs, outputs, poles, input_matrix, output_matrix, added_mass = (
             group[key][()] for key in keys
         )

@@ -53,14 +53,16 @@ class Water:
         object.__setattr__(self, "heading", np.asarray(self.heading, dtype=float))
         ascending = w.ndim == 1 and w.size >= 4 and w.min() > 0.0 and np.all(np.diff(w) > 0.0)
         if not (ascending and np.all(np.isfinite(w))):
-            raise DatabaseError("needs at least 4 frequencies > 0 in ascending order [rad/s]")
+            raise DatabaseError(
+                "needs at least 4 frequencies > 0 in ascending order [rad/s]"
+            ).about("frequencies")
         if not (self.rho > 0.0 and self.gravity > 0.0):
-            raise DatabaseError("rho and gravity must be > 0")
+            raise DatabaseError("rho and gravity must be > 0").about("value", "water")
         if not (0.0 < self.depth < np.inf):
             raise DatabaseError(
                 f"depth {self.depth:g} m: the interaction theory needs a finite depth; for deep "
                 "water take half of the longest wave that matters"
-            )
+            ).about("value", "depth")
 
 
 def cylinders(
@@ -108,7 +110,9 @@ def cylinders(
     points = _points(places, body, water)
     count = _count(body, water) if modes is None else modes
     if orders < 2 or count < 4:
-        raise DatabaseError(f"orders {orders}, modes {count}: expected at least 2 and 4")
+        raise DatabaseError(f"orders {orders}, modes {count}: expected at least 2 and 4").about(
+            "option", "orders"
+        )
     omega = np.append(water.omega, np.inf)
     solved = []
     for i, w in enumerate(omega):
@@ -144,12 +148,12 @@ def _points(places: Mapping[str, ArrayLike], body: Cylinder, water: Water) -> Ar
         raise DatabaseError(
             f"a cylinder of radius {body.radius:g} m and draught {body.draft:g} m: expected a "
             f"radius > 0 and a draught between 0 and the depth {water.depth:g} m"
-        )
+        ).about("geometry", "cylinder")
     if not places:
-        raise DatabaseError("no bodies: give at least one place")
+        raise DatabaseError("no bodies: give at least one place").about("option", "places")
     for name, place in places.items():
         if np.shape(place) != (2,) or not np.all(np.isfinite(np.asarray(place, dtype=float))):
-            raise DatabaseError(f"place of {name!r}: expected x, y [m]")
+            raise DatabaseError(f"place of {name!r}: expected x, y [m]").about("shape", name)
     names, points = list(places), np.array([np.asarray(p, float) for p in places.values()])
     for i in range(len(names)):
         for j in range(i):
@@ -157,7 +161,7 @@ def _points(places: Mapping[str, ArrayLike], body: Cylinder, water: Water) -> Ar
             if distance <= 2.0 * body.radius:
                 raise DatabaseError(
                     f"{names[j]!r} and {names[i]!r} are {distance:g} m apart, less than a diameter"
-                )
+                ).about("geometry", names[i])
     return points
 
 

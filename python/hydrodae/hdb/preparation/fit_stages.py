@@ -157,7 +157,9 @@ def judge(state: Fit) -> None:
         refused["limit"] = "goes to another added mass, or rings, beyond the frequencies it matches"
     if refused:
         cured_by = cure(state.database, state.moving, state.judged)
-        raise DatabaseError(f"fit '{state.name}' {_refusal(refused, cured_by)}")
+        raise DatabaseError(f"fit '{state.name}' {_refusal(refused, cured_by)}").about(
+            "target", state.name
+        )
 
 
 def store(state: Fit) -> None:

@@ -89,11 +89,11 @@ def fit(
         What the fit missed and was accepted; coordinates that do not radiate.
     """
     if not is_fit_name(name):
-        raise CaseError(f"fit {name!r}: a name has letters, digits, _ and - only")
+        raise CaseError(f"fit {name!r}: a name has letters, digits, _ and - only", key="name")
     if target is not None and not target > 0.0:
-        raise CaseError(f"target {target:g}: expected a number > 0")
+        raise CaseError(f"target {target:g}: expected a number > 0", key="target")
     if time_limit is not None and not time_limit > 0.0:
-        raise CaseError(f"time limit {time_limit:g}: expected seconds > 0")
+        raise CaseError(f"time limit {time_limit:g}: expected seconds > 0", key="time_limit")
     state = Fit(
         database,
         _labels(inputs, database),

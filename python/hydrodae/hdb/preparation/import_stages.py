@@ -89,7 +89,7 @@ def read_tables(state: Import) -> None:
         (state.cut, "frequencies are cut where a source is imported (cut)"),
     ):
         if asked is not None:
-            raise DatabaseError(f"{source}: {text}")
+            raise DatabaseError(text).about("option", file=source)
     database = read(source, rho=rho, depth=depth, gravity=gravity)
     if goes_round(database.heading):
         state.findings.append(closing_finding(database.heading))
@@ -104,9 +104,9 @@ def cut(state: Import) -> None:
     kept = data.omega <= highest * (1.0 + 1e-9)
     if kept.sum() < 4:
         raise DatabaseError(
-            f"{data.name}: only {kept.sum()} of its frequencies ({data.omega[0]:.4g} to "
+            f"only {kept.sum()} of its frequencies ({data.omega[0]:.4g} to "
             f"{data.omega[-1]:.4g} rad/s) are not above {highest:g} rad/s; 4 are needed"
-        )
+        ).about("frequencies", "cut", file=data.name)
     if kept.all():
         return
     text = f"{(~kept).sum()} frequencies above {highest:g} rad/s left out, as asked"
@@ -151,7 +151,7 @@ def state_points(state: Import) -> None:
             raise DatabaseError(
                 f"the source says the moments of {name!r} are about {known.tolist()}, "
                 f"not {point.tolist()}"
-            )
+            ).about("point", name)
         data.state_point(old, point)
 
 
@@ -213,7 +213,7 @@ def _add_mesh(state: Import, name: str, file: str | Path) -> None:
         panels = read_mesh(file)
         statics = mesh_statics(panels, state.database.reference_point(name))
     except DatabaseError as error:
-        raise DatabaseError(f"{file}: {error}".replace(f"{file}: {file}", f"{file}")) from None
+        raise error.in_file(file) from None
     database = state.database.with_hydrostatics({name: statics})
     state.database = database.with_meshes({name: panels})
 
@@ -225,7 +225,9 @@ def _with_stiffness(
     for name in (*files, *volumes):
         check_body(name, database.bodies)
     if alone := [name for name in volumes if name not in files]:
-        raise DatabaseError(f"a volume of {alone[0]!r} goes with its stiffness (--stiffness FILE)")
+        raise DatabaseError(
+            f"a volume of {alone[0]!r} goes with its stiffness (--stiffness FILE)"
+        ).about("option", alone[0])
     made = {}
     for name, file in files.items():
         point, given = database.reference_point(name), read_stiffness(file)
@@ -234,7 +236,7 @@ def _with_stiffness(
                 point, volumes.get(name), database.rho, database.gravity
             )
         except DatabaseError as error:
-            raise DatabaseError(f"{file}: {error}") from None
+            raise error.in_file(file) from None
     return database.with_hydrostatics(made)
 
 
@@ -245,7 +247,7 @@ def _of_only_body(given: dict[str, T], bodies: Sequence[str]) -> dict[str, T]:
     if len(bodies) != 1:
         raise DatabaseError(
             f"{given['']}: of which body? There are {', '.join(bodies)}: write {bodies[0]}=..."
-        )
+        ).about("ambiguous")
     return {bodies[0] if name == "" else name: value for name, value in given.items()}
 
 
@@ -260,5 +262,5 @@ def _renaming(
         raise DatabaseError(
             f"{len(bodies)} bodies in the source ({', '.join(bodies)}), "
             f"but the new names are {names}"
-        )
+        ).about("label", "names")
     return dict(zip(bodies, names, strict=True))

@@ -86,7 +86,7 @@ def without_lone_rows(
         raise DatabaseError(
             f"memory fit: {text}: more than {MOST:.0%} of those in the band; what wrote the tables "
             f"failed there: compute them again"
-        )
+        ).about("frequencies", "lone")
     return database.at_frequencies(~bad), f"{text}: left out"
 
 

@@ -52,11 +52,15 @@ def mirrored(
     findings: list[Finding] = []
     for plane in PLANES if planes is None else planes:
         if plane not in PLANES:
-            raise DatabaseError(f"plane {plane!r}: expected y (the plane y = 0) or x")
+            raise DatabaseError(f"plane {plane!r}: expected y (the plane y = 0) or x").about(
+                "option", "plane"
+            )
         text, miss = _miss(database, plane)
         if not miss <= MOST:
             if planes is not None:
-                raise DatabaseError(f"the tables are not symmetric about {plane} = 0: {text}")
+                raise DatabaseError(
+                    f"the tables are not symmetric about {plane} = 0: {text}"
+                ).about("symmetry", plane)
             continue
         before = database.heading
         database = _with_images(database, plane)

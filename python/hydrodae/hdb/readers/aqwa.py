@@ -44,7 +44,9 @@ def aqwa_file(path: Path) -> Path | None:
     for suffix in (".ah1", ".lis"):
         found = [p for p in sorted(path.iterdir()) if p.suffix.lower() == suffix]
         if len(found) > 1:
-            raise DatabaseError(f"{path}: which one is meant? {', '.join(p.name for p in found)}")
+            raise DatabaseError(f"which one is meant? {', '.join(p.name for p in found)}").about(
+                "ambiguous", file=path
+            )
         if found:
             return found[0]
     return None
@@ -92,7 +94,9 @@ class _Ah1:
             return [number(word) for word in line.split()]
         except ValueError:
             wrong = next(word for word in line.split() if not _is_number(word))
-            raise DatabaseError(f"{self.path}:{count}: {wrong!r} is not a number") from None
+            raise DatabaseError(f"{wrong!r} is not a number").about(
+                "format", file=self.path, line=count
+            ) from None
 
     def _header(self) -> None:
         """Structures, headings [deg] and frequencies [rad/s]; equal for all structures."""
@@ -102,36 +106,39 @@ class _Ah1:
             count = [int(v) for v in values[1:3] if v == int(v) and v > 0.0]
             if len(count) != 2 or values[0] != len(grids) + 1:
                 raise DatabaseError(
-                    f"{self.path}: its head, before the first section: expected the number of a "
+                    f"its head, before the first section: expected the number of a "
                     f"structure ({len(grids) + 1}), of directions and of frequencies, got "
                     f"{' '.join(f'{v:g}' for v in values[:3])}"
-                )
+                ).about("format", file=self.path)
             nh, nw = count
             headings.append(values[3 : 3 + nh])
             grids.append(values[3 + nh : 3 + nh + nw])
             if len(grids[-1]) != nw:
-                raise DatabaseError(f"{self.path}: its head is cut short: {nw} frequencies stated")
+                raise DatabaseError(f"its head is cut short: {nw} frequencies stated").about(
+                    "cut_short", file=self.path
+                )
             values = values[3 + nh + nw :]
         if (
             not grids
             or any(g != grids[0] for g in grids)
             or any(h != headings[0] for h in headings)
         ):
-            raise DatabaseError(f"{self.path}: structures with different frequencies or headings")
+            raise DatabaseError("structures with different frequencies or headings").about(
+                "conflict", file=self.path
+            )
         self.count = len(grids)
         self.omega, self.heading_deg = np.array(grids[0]), np.array(headings[0])
 
     def block(self, word: str, counts: tuple[int, ...], width: int) -> Array:
         """Numbers of a section, (entries, width); each entry begins with its indices from 1."""
         if word not in self.sections:
-            raise DatabaseError(f"{self.path}: no section {word}")
+            raise DatabaseError(f"no section {word}").about("missing", word, file=self.path)
         line, values = self.sections[word]
         entries, length = int(np.prod(counts)), len(counts) + width
         if len(values) != entries * length:
             raise DatabaseError(
-                f"{self.path}:{line}: section {word} holds {len(values)} numbers, expected "
-                f"{entries * length}"
-            )
+                f"section {word} holds {len(values)} numbers, expected {entries * length}"
+            ).about("shape", word, file=self.path, line=line)
         table = np.array(values).reshape(entries, length)
         indices = np.indices(counts).reshape(len(counts), -1).T + 1
         wrong = np.flatnonzero((table[:, : len(counts)] != indices).any(axis=1))
@@ -141,9 +148,9 @@ class _Ah1:
                 for rows in (table, indices)
             )
             raise DatabaseError(
-                f"{self.path}:{line}: section {word}: entry {wrong[0] + 1} begins with {found}, "
+                f"section {word}: entry {wrong[0] + 1} begins with {found}, "
                 f"expected {expected}: lines are missing, twice or in another order"
-            )
+            ).about("order", word, file=self.path, line=line)
         return table[:, len(counts) :]
 
     def matrices(self, word: str) -> Array:

@@ -29,9 +29,9 @@ def unit_of_mass(path: Path, rho: float, gravity: float) -> float:
         if 0.1 < rho < 20.0:
             return 1000.0
     raise DatabaseError(
-        f"{path}: density {rho:g} and gravity {gravity:g}: neither kg, m, N nor t, m, kN; choose "
+        f"density {rho:g} and gravity {gravity:g}: neither kg, m, N nor t, m, kN; choose "
         f"metric units in AQWA"
-    )
+    ).about("units", "density", file=path)
 
 
 def structure_names(path: Path, count: int) -> list[str]:

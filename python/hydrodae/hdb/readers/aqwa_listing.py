@@ -57,7 +57,7 @@ def read_listing(path: Path) -> SourceData:
     lines = read_text(path).expandtabs(2).splitlines()
     pages = pages_of_structures(lines)
     if not pages:
-        raise DatabaseError(f"{path}: no page FOR STRUCTURE n in it")
+        raise DatabaseError("no page FOR STRUCTURE n in it").about("missing", file=path)
     structures = sorted(pages)
     water = [_stated(path, lines, _STATED[key]) for key in ("rho", "gravity", "depth")]
     unit = unit_of_mass(path, water[0], water[1])
@@ -72,7 +72,9 @@ def read_listing(path: Path) -> SourceData:
     for key, title in _FORCES.items():
         parts = [_force_table(path, title, rows, omega) for rows in forces[key]]
         if any(not np.array_equal(h, parts[0][1]) for _, h in parts):
-            raise DatabaseError(f"{path}: {title}: structures with different directions")
+            raise DatabaseError(f"{title}: structures with different directions").about(
+                "conflict", "headings", file=path
+            )
         tables[key] = np.concatenate([unit * table for table, _ in parts], axis=2)
         headings_deg = parts[0][1]
     heading, kept = unique_headings(headings_deg)
@@ -108,7 +110,9 @@ def _stated(path: Path, lines: list[str], pattern: str) -> float:
         if found:
             return number(found[1])
     words = re.sub(r"\\s[+*]?|\[ \.\]\*|=", " ", pattern).split()
-    raise DatabaseError(f"{path}: no line {' '.join(words)!r} with a number")
+    raise DatabaseError(f"no line {' '.join(words)!r} with a number").about(
+        "missing", " ".join(words), file=path
+    )
 
 
 def _center(path: Path, lines: list[str]) -> Array:
@@ -116,14 +120,16 @@ def _center(path: Path, lines: list[str]) -> Array:
         found = re.search(rf"GX=\s*({NUMBER})\s+GY=\s*({NUMBER})\s+GZ=\s*({NUMBER})", line)
         if found:
             return np.array([number(v) for v in found.groups()])
-    raise DatabaseError(f"{path}: no line 'STRUCTURE C.O.G. GX= GY= GZ='")
+    raise DatabaseError("no line 'STRUCTURE C.O.G. GX= GY= GZ='").about(
+        "missing", "STRUCTURE C.O.G.", file=path
+    )
 
 
 def _stiffness(path: Path, lines: list[str]) -> Array:
     for at, line in enumerate(lines):
         if line.strip() == "STIFFNESS MATRIX":
             return read_matrix(path, lines, at)
-    raise DatabaseError(f"{path}: no STIFFNESS MATRIX")
+    raise DatabaseError("no STIFFNESS MATRIX").about("missing", "STIFFNESS MATRIX", file=path)
 
 
 def _forces(path: Path, lines: list[str], title: str) -> dict[tuple[float, float], Complex]:
@@ -141,14 +147,16 @@ def _forces(path: Path, lines: list[str], title: str) -> dict[tuple[float, float
             try:
                 values = np.array([number(word) for word in words])
             except ValueError:
-                raise DatabaseError(f"{path}:{at + 1}: expected numbers") from None
+                raise DatabaseError("expected numbers").about(
+                    "format", file=path, line=at + 1
+                ) from None
             if values.size == 15:
                 direction = values[2]
             pairs = values[-12:]
             force = pairs[0::2] * np.exp(-1j * np.radians(pairs[1::2]))
             rows[float(values[1]), float(direction)] = force
     if not rows:
-        raise DatabaseError(f"{path}: no table {title!r}")
+        raise DatabaseError(f"no table {title!r}").about("missing", title, file=path)
     return rows
 
 
@@ -163,6 +171,8 @@ def _force_table(
         near = float(grid[np.abs(grid - w).argmin()])
         for j, h in enumerate(headings):
             if abs(near - w) > 1e-3 * max(w, 1.0) or (near, float(h)) not in rows:
-                raise DatabaseError(f"{path}: {title}: no row at {w:g} rad/s and {h:g} degrees")
+                raise DatabaseError(f"{title}: no row at {w:g} rad/s and {h:g} degrees").about(
+                    "missing", title, file=path
+                )
             table[i, j] = rows[near, float(h)]
     return table, headings

@@ -49,12 +49,14 @@ def read_matrix(path: Path, lines: list[str], start: int) -> Array:
         try:
             rows.append([number(word) for word in words[1:7]])
         except ValueError:
-            raise DatabaseError(f"{path}:{at + 1}: expected six numbers") from None
+            raise DatabaseError("expected six numbers").about(
+                "format", file=path, line=at + 1
+            ) from None
         if len(rows[-1]) != 6:
-            raise DatabaseError(f"{path}:{at + 1}: expected six numbers")
+            raise DatabaseError("expected six numbers").about("format", file=path, line=at + 1)
         if len(rows) == 6:
             return np.array(rows)
-    raise DatabaseError(f"{path}:{start + 1}: no matrix of 6 rows follows")
+    raise DatabaseError("no matrix of 6 rows follows").about("shape", file=path, line=start + 1)
 
 
 def read_radiation(
@@ -97,15 +99,15 @@ def read_radiation(
     usual = sorted(w for w in found if np.abs(grid - w).min() < 1e-3 * max(w, 1.0))
     usual = [w for w in usual if w < HIGH and any(what == "DAMPING" for what, _, _ in found[w])]
     if not usual:
-        raise DatabaseError(f"{path}: no tables of added mass and damping")
+        raise DatabaseError("no tables of added mass and damping").about("missing", file=path)
     for w in usual:
         for what in ("ADDED MASS", "DAMPING"):
             for force, moving in pairs:
                 if (what, force, moving) not in found[w]:
                     raise DatabaseError(
-                        f"{path}: no table of {what.lower()}, force on structure {force} by "
+                        f"no table of {what.lower()}, force on structure {force} by "
                         f"motion of {moving}, at {w:g} rad/s"
-                    )
+                    ).about("missing", what, file=path)
     a = np.array([_whole(found[w], "ADDED MASS", numbers, pairs) for w in usual])
     b = np.array([_whole(found[w], "DAMPING", numbers, pairs) for w in usual])
     high = found.get(HIGH, {})

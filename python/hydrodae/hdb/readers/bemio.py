@@ -15,6 +15,7 @@ import numpy as np
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.coordinates import unique_names
+from hydrodae.hdb.database.files import damaged
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import six_of_each
@@ -44,7 +45,7 @@ def read_bemio(path: Path) -> SourceData:
     DatabaseError
         Something is missing or has an unexpected shape; the message names file and dataset.
     """
-    with opened(path, DatabaseError, "incomplete or damaged") as f:
+    with opened(path, damaged, "incomplete or damaged") as f:
         return _read(path, f)
 
 
@@ -59,8 +60,8 @@ def _read(path: Path, f: h5py.File) -> SourceData:
     for g, n in zip(groups, counts, strict=True):
         if n < 6:
             raise DatabaseError(
-                f"{path}: {g.name}/properties/dof is {n}; expected 6 or more, the rigid ones first"
-            )
+                f"{g.name}/properties/dof is {n}; expected 6 or more, the rigid ones first"
+            ).about("shape", "dof", file=path)
     starts = np.r_[0, np.cumsum(counts)]
     kept = np.concatenate([start + np.arange(6) for start in starts[:-1]])
     if any(n > 6 for n in counts):
@@ -128,7 +129,9 @@ def _bodies(path: Path, f: h5py.File) -> list[str]:
         (n for n in f if n.startswith("body") and n[4:].isdigit()), key=lambda n: int(n[4:])
     )
     if found != [f"body{i + 1}" for i in range(len(found))]:
-        raise DatabaseError(f"{path}: expected groups body1, body2, ..., got {found}")
+        raise DatabaseError(f"expected groups body1, body2, ..., got {found}").about(
+            "label", "bodies", file=path
+        )
     return found
 
 
@@ -174,32 +177,40 @@ def _depth(path: Path, f: h5py.File) -> float:
     if isinstance(value, bytes | str):
         if _text(value).strip().lower().startswith("inf"):
             return np.inf
-        raise DatabaseError(f"{path}: water_depth {_text(value)!r}: expected metres or 'infinite'")
+        raise DatabaseError(f"water_depth {_text(value)!r}: expected metres or 'infinite'").about(
+            "value", "depth", file=path
+        )
     return _number(path, f, "water_depth")
 
 
 def _number(path: Path, f: h5py.File, name: str) -> float:
     value = _array(path, f, f"simulation_parameters/{name}")
     if value.size != 1:
-        raise DatabaseError(f"{path}: simulation_parameters/{name}: expected one number")
+        raise DatabaseError(f"simulation_parameters/{name}: expected one number").about(
+            "format", name, file=path
+        )
     return float(value.ravel()[0])
 
 
 def _array(path: Path, group: h5py.Group, name: str) -> Array:
     if name not in group:
-        raise DatabaseError(f"{path}: no dataset {group.name.rstrip('/')}/{name}")
+        raise DatabaseError(f"no dataset {group.name.rstrip('/')}/{name}").about(
+            "missing", name, file=path
+        )
     try:
         return np.asarray(group[name][()], dtype=float)
     except (TypeError, ValueError) as error:
-        raise DatabaseError(f"{path}: {group.name}/{name} does not hold numbers") from error
+        raise DatabaseError(f"{group.name}/{name} does not hold numbers").about(
+            "format", name, file=path
+        ) from error
 
 
 def _table(path: Path, group: h5py.Group, name: str, shape: tuple[int, ...]) -> Array:
     value = _array(path, group, f"hydro_coeffs/{name}")
     if value.shape != shape:
         raise DatabaseError(
-            f"{path}: {group.name}/hydro_coeffs/{name} has shape {value.shape}, expected {shape}"
-        )
+            f"{group.name}/hydro_coeffs/{name} has shape {value.shape}, expected {shape}"
+        ).about("shape", name, file=path)
     return value
 
 

@@ -54,11 +54,13 @@ def read_capytaine(path: Path) -> SourceData:
         ds = _one_case(path, opened.load())
     for name in ("added_mass", "radiation_damping"):
         if name not in ds:
-            raise DatabaseError(f"{path}: no variable {name!r} in it")
+            raise DatabaseError(f"no variable {name!r} in it").about("missing", name, file=path)
     ds, omega = _frequencies(path, ds)
     if np.any(np.isnan(omega) | (omega < 0.0)):
         at = int(np.flatnonzero(np.isnan(omega) | (omega < 0.0))[0])
-        raise DatabaseError(f"{path}: frequency {at + 1} is {omega[at]:g} rad/s; expected all >= 0")
+        raise DatabaseError(f"frequency {at + 1} is {omega[at]:g} rad/s; expected all >= 0").about(
+            "frequencies", file=path
+        )
     findings: list[Finding] = []
     raw, coordinates = _coordinates(path, ds, findings)
     a = _matrix(path, ds, "added_mass", raw)
@@ -110,7 +112,9 @@ def open_dataset(path: Path) -> xr.Dataset:
     try:
         return xr.open_dataset(path, engine=engine)
     except (OSError, ValueError, TypeError, LookupError, AttributeError) as error:
-        raise DatabaseError(f"{path}: not a readable netCDF file ({error})") from error
+        raise DatabaseError(f"not a readable netCDF file ({error})").about(
+            "format", file=path
+        ) from error
 
 
 def _headings(path: Path, ds: xr.Dataset) -> Array:
@@ -118,9 +122,9 @@ def _headings(path: Path, ds: xr.Dataset) -> Array:
     heading = np.atleast_1d(ds["wave_direction"].values).astype(float)
     if np.abs(heading).max() > 2.0 * np.pi + 1e-6:
         raise DatabaseError(
-            f"{path}: wave_direction {np.abs(heading).max():g}: expected radians, at most 2 pi; "
+            f"wave_direction {np.abs(heading).max():g}: expected radians, at most 2 pi; "
             f"are these degrees?"
-        )
+        ).about("units", "wave_direction", file=path)
     return heading
 
 
@@ -132,16 +136,16 @@ def _one_case(path: Path, ds: xr.Dataset) -> xr.Dataset:
             continue
         if ds.sizes[name] != 1:
             raise DatabaseError(
-                f"{path}: {ds.sizes[name]} values of {name!r}; select one before exporting "
+                f"{ds.sizes[name]} values of {name!r}; select one before exporting "
                 f"(dataset.isel({name}=0))"
-            )
+            ).about("ambiguous", str(name), file=path)
         ds = ds.isel({name: 0})
     speed = float(np.max(np.abs(ds["forward_speed"].values))) if "forward_speed" in ds else 0.0
     if speed > 0.0:
         raise DatabaseError(
-            f"{path}: forward_speed {speed:g} m/s: only tables of bodies without forward speed "
+            f"forward_speed {speed:g} m/s: only tables of bodies without forward speed "
             f"are supported"
-        )
+        ).about("unsupported", "forward_speed", file=path)
     return ds
 
 
@@ -150,7 +154,9 @@ def _frequencies(path: Path, ds: xr.Dataset) -> tuple[xr.Dataset, Array]:
     axes = [d for d in ds["added_mass"].dims if d in FREQUENCY_AXES]
     if not axes:
         if "omega" not in ds.coords:
-            raise DatabaseError(f"{path}: no frequency dimension ({', '.join(FREQUENCY_AXES)})")
+            raise DatabaseError(f"no frequency dimension ({', '.join(FREQUENCY_AXES)})").about(
+                "missing", "frequency", file=path
+            )
         return ds.expand_dims("omega"), np.atleast_1d(ds["omega"].values).astype(float)
     axis = str(axes[0])
     if "omega" in ds.coords:
@@ -184,7 +190,7 @@ def _coordinates(
     rigid = [d for d in both if d.rpartition("__")[2].lower() in DOFS]
     lost = [d for d in dict.fromkeys(influenced + radiating) if d not in rigid]
     if not rigid:
-        raise DatabaseError(f"{path}: none of {both} is one of {', '.join(DOFS)}")
+        raise DatabaseError(f"none of {both} is one of {', '.join(DOFS)}").about("label", file=path)
     if lost:
         findings.append(
             Finding(
@@ -213,7 +219,9 @@ def _matrix(path: Path, ds: xr.Dataset, name: str, dofs: list[str]) -> Array:
     try:
         ordered = variable.transpose("omega", "influenced_dof", "radiating_dof")
     except ValueError as error:
-        raise DatabaseError(f"{path}: dimensions of {name!r}: {variable.dims}") from error
+        raise DatabaseError(f"dimensions of {name!r}: {variable.dims}").about(
+            "shape", name, file=path
+        ) from error
     return np.asarray(ordered.values, dtype=float)
 
 
@@ -227,7 +235,9 @@ def _force(
     if "complex" in variable.dims:
         labels = [text(c) for c in variable["complex"].values]
         if sorted(labels) != ["im", "re"]:
-            raise DatabaseError(f"{path}: dimension 'complex' of {name!r} is labelled {labels}")
+            raise DatabaseError(f"dimension 'complex' of {name!r} is labelled {labels}").about(
+                "format", name, file=path
+            )
         variable = variable.assign_coords(complex=labels)
         variable = variable.sel(complex="re") + 1j * variable.sel(complex="im")
     if "wave_direction" not in variable.dims:
@@ -235,13 +245,15 @@ def _force(
     try:
         ordered = variable.transpose("omega", "wave_direction", "influenced_dof")
     except ValueError as error:
-        raise DatabaseError(f"{path}: dimensions of {name!r}: {variable.dims}") from error
+        raise DatabaseError(f"dimensions of {name!r}: {variable.dims}").about(
+            "shape", name, file=path
+        ) from error
     return np.asarray(np.conj(ordered.values[order]), dtype=complex)
 
 
 def _number(path: Path, ds: xr.Dataset, name: str) -> float:
     if name not in ds or ds[name].size != 1:
-        raise DatabaseError(f"{path}: needs one value of {name!r}")
+        raise DatabaseError(f"needs one value of {name!r}").about("missing", name, file=path)
     return float(ds[name].values.item())
 
 

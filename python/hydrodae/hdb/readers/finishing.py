@@ -31,9 +31,9 @@ def finish(data: SourceData) -> HydroDatabase:
     _drop_rows_with_nan(data)
     if data.omega.size < 4:
         raise DatabaseError(
-            f"{data.name}: {data.omega.size} frequencies > 0; 4 are needed at least: "
+            f"{data.omega.size} frequencies > 0; 4 are needed at least: "
             f"compute more where they come from"
-        )
+        ).about("frequencies", file=data.name)
     asymmetry_finding(data)
     exchange_finding(data)
     uncoupled_finding(data)
@@ -92,9 +92,9 @@ def _drop_rows_with_nan(data: SourceData) -> None:
     share = bad.mean()
     if share > 0.2 or (~bad).sum() < 4:
         raise DatabaseError(
-            f"{data.name}: {bad.sum()} of {bad.size} frequencies hold NaN (w = {where} rad/s): the "
+            f"{bad.sum()} of {bad.size} frequencies hold NaN (w = {where} rad/s): the "
             f"computation behind it failed; repeat it"
-        )
+        ).about("not_finite", file=data.name)
     data.findings.append(
         Finding(
             "warning",
@@ -206,8 +206,8 @@ def _split_excitation(data: SourceData) -> tuple[Complex, Complex, bool]:
     if d is not None or fk is not None:
         half = "diffraction" if d is not None else "Froude-Krylov"
         raise DatabaseError(
-            f"{data.name}: only the {half} force is there; the excitation needs the other half too"
-        )
+            f"only the {half} force is there; the excitation needs the other half too"
+        ).about("missing", "excitation", file=data.name)
     data.findings.append(
         Finding("warning", "excitation", "the source holds no excitation: no waves can be used")
     )

@@ -33,7 +33,9 @@ def settle_headings(data: SourceData) -> None:
     if not data.heading.size:
         return
     if not np.all(np.isfinite(data.heading)):
-        raise DatabaseError(f"{data.name}: headings {np.degrees(data.heading).tolist()} deg")
+        raise DatabaseError(f"headings {np.degrees(data.heading).tolist()} deg").about(
+            "headings", file=data.name
+        )
     order = np.argsort(data.heading, kind="stable")
     if np.any(np.diff(order) < 0):
         _take(data, order)
@@ -80,6 +82,6 @@ def _compare(data: SourceData, i: int, j: int) -> None:
         if error > ALIKE:
             first, second = np.degrees(data.heading[[i, j]])
             raise DatabaseError(
-                f"{data.name}: headings {first:.6g} and {second:.6g} deg are one direction, but "
+                f"headings {first:.6g} and {second:.6g} deg are one direction, but "
                 f"their forces ({name.replace('_', ' ')}) differ by {error:.2g}: which is right?"
-            )
+            ).about("headings", name, file=data.name)

@@ -40,7 +40,7 @@ def resolve(source: str | Path) -> tuple[Path, str]:
     if path.is_dir():
         return _folder(path)
     if not path.is_file():
-        raise DatabaseError(f"{path}: no such file or folder{_similar(path)}")
+        raise DatabaseError(f"no such file or folder{_similar(path)}").about("missing", file=path)
     return path, _file(path)
 
 
@@ -61,30 +61,36 @@ def _folder(path: Path) -> tuple[Path, str]:
         return resolve(inside[0])
     if inside:
         names = ", ".join(p.name for p in inside[:6])
-        raise DatabaseError(f"{path}: which one is meant? {names}: name the file")
+        raise DatabaseError(f"which one is meant? {names}: name the file").about(
+            "ambiguous", file=path
+        )
     below = runs_below(path, _holds_one)
     if len(below) == 1:
         return _folder(below[0])
     if below:
         names = ", ".join(str(p.relative_to(path)) for p in below[:8])
         more = f" and {len(below) - 8} more" if len(below) > 8 else ""
-        raise DatabaseError(f"{path}: databases are in the folders {names}{more}: name one of them")
+        raise DatabaseError(f"databases are in the folders {names}{more}: name one of them").about(
+            "ambiguous", file=path
+        )
     runs = [p.name for p in sorted(path.iterdir()) if p.suffix == ".1"]
     if len(runs) > 1:
-        raise DatabaseError(f"{path}: which one is meant? {', '.join(runs[:6])}: name the file")
+        raise DatabaseError(f"which one is meant? {', '.join(runs[:6])}: name the file").about(
+            "ambiguous", file=path
+        )
     lost = next(iter(_named(path, "RadiationCoefficients.tec")), None)
     if lost is not None:
         raise DatabaseError(
-            f"{path}: {lost.relative_to(path)} without the Nemoh.cal of its run, which holds the "
+            f"{lost.relative_to(path)} without the Nemoh.cal of its run, which holds the "
             f"water, the bodies and their reference points"
-        )
+        ).about("missing", "Nemoh.cal", file=path)
     unread = foreign_in(path)
     if unread is not None:
-        raise DatabaseError(unread)
+        raise DatabaseError(unread).about("unsupported")
     raise DatabaseError(
-        f"{path}: no database in it; expected Nemoh.cal, a .nc of Capytaine, a .h5 of BEMIO, "
+        f"no database in it; expected Nemoh.cal, a .nc of Capytaine, a .h5 of BEMIO, "
         f"{expected_files()}"
-    )
+    ).about("missing", "database", file=path)
 
 
 def _nemoh(path: Path) -> bool:
@@ -158,23 +164,25 @@ def _file(path: Path) -> str:
     if h5py.is_hdf5(path):
         if files.is_hydro_file(path):
             return "hydro"
-        with opened(path, DatabaseError, "not a readable HDF5 file") as f:
+        with opened(path, files.damaged, "not a readable HDF5 file") as f:
             if "added_mass" in f and "radiating_dof" in f:
                 return "capytaine"
             if is_bemio_file(f):
                 return "bemio"
             holds = ", ".join(sorted(f)[:6]) or "nothing"
-        raise DatabaseError(f"{path}: an HDF5 file of another kind (it holds {holds})")
+        raise DatabaseError(f"an HDF5 file of another kind (it holds {holds})").about(
+            "unsupported", file=path
+        )
     for name, format in formats().items():
         if format.find(path) is not None:
             return name
     unread = foreign(path)
     if unread is not None:
-        raise DatabaseError(unread)
+        raise DatabaseError(unread).about("unsupported")
     raise DatabaseError(
-        f"{path}: not a Nemoh folder, a netCDF file of Capytaine, a BEMIO .h5, "
+        f"not a Nemoh folder, a netCDF file of Capytaine, a BEMIO .h5, "
         f"{expected_files()} or a hydro.h5 of hydrodae"
-    )
+    ).about("unsupported", file=path)
 
 
 def _similar(path: Path) -> str:

@@ -52,12 +52,14 @@ def read_nemoh(path: Path) -> SourceData:
     root = path.parent if path.is_file() else path
     cal_file = path if path.is_file() else nh.find(root, "Nemoh.cal")
     if cal_file is None:
-        raise DatabaseError(f"{root}: no Nemoh.cal in it")
+        raise DatabaseError("no Nemoh.cal in it").about("missing", "Nemoh.cal", file=root)
     cal = read_cal(cal_file)
     names = unique_names([body.mesh for body in cal.bodies])
     radiation = nh.find(root, "RadiationCoefficients.tec")
     if radiation is None:
-        raise DatabaseError(f"{root}: no RadiationCoefficients.tec in it or in its results folder")
+        raise DatabaseError("no RadiationCoefficients.tec in it or in its results folder").about(
+            "missing", "RadiationCoefficients.tec", file=root
+        )
     data = _read_tables(root, cal, names, [cal_file, radiation])
     _compare_grid(data, cal)
     meshes = [body.mesh for body in cal.bodies]
@@ -117,8 +119,8 @@ def _read_radiation(
     header, blocks = tecplot.read_blocks(path)
     if len(blocks) != len(motions):
         raise DatabaseError(
-            f"{path}: {len(blocks)} zones, but Nemoh.cal has {len(motions)} degrees of freedom"
-        )
+            f"{len(blocks)} zones, but Nemoh.cal has {len(motions)} degrees of freedom"
+        ).about("shape", file=path)
     columns = 1 + 2 * len(forces)
     meaning = f"frequency and (A, B) of the {len(forces)} forces of Nemoh.cal"
     tables = [tecplot.table(path, block, columns, meaning) for block in blocks]
@@ -132,7 +134,7 @@ def _read_radiation(
     if order is None:
         return omega, a, b, None
     if motions != forces:
-        raise DatabaseError(f"{path}: zones are not in the order of Nemoh.cal")
+        raise DatabaseError("zones are not in the order of Nemoh.cal").about("order", file=path)
     return omega, a[:, order][:, :, order], b[:, order][:, :, order], order
 
 
@@ -143,7 +145,9 @@ def _zone_order(path: Path, blocks: list[tecplot.Block], motions: list[Mode]) ->
         bodies = list(dict.fromkeys(body for body, _, _ in named))
         zones = [(bodies.index(body), DOFS.index(dof.lower())) for body, _, dof in named]
         if sorted(zones) != sorted(motions):
-            raise DatabaseError(f"{path}: the zones are not the degrees of freedom of Nemoh.cal")
+            raise DatabaseError("the zones are not the degrees of freedom of Nemoh.cal").about(
+                "order", file=path
+            )
         return None if zones == motions else [zones.index(m) for m in motions]
     count: dict[int, int] = {}
     for (body, _), block in zip(motions, blocks, strict=True):
@@ -151,9 +155,9 @@ def _zone_order(path: Path, blocks: list[tecplot.Block], motions: list[Mode]) ->
         found = _MOTION.search(block.title)
         if found and (int(found[1]), int(found[2])) != (body + 1, count[body]):
             raise DatabaseError(
-                f"{path}:{block.line - 1}: zone of body {found[1]}, DoF {found[2]}, where "
+                f"zone of body {found[1]}, DoF {found[2]}, where "
                 f"Nemoh.cal has body {body + 1}, DoF {count[body]}"
-            )
+            ).about("order", file=path, line=block.line - 1)
     return None
 
 
@@ -170,7 +174,9 @@ def _read_forces(
         values[:, h] = t[:, 1::2] * np.exp(-1j * t[:, 2::2])
     heading_deg = _headings(path, blocks, cal)
     if known_deg.size and not np.allclose(known_deg, heading_deg, atol=2e-3):
-        raise DatabaseError(f"{path}: headings differ from those of the other force files")
+        raise DatabaseError("headings differ from those of the other force files").about(
+            "conflict", "headings", file=path
+        )
     # the file has its phase zero at (XEFF, YEFF), the project at the origin
     k = wavenumber(omega, cal.depth, cal.gravity)
     beta = np.radians(heading_deg)
@@ -187,12 +193,14 @@ def _headings(path: Path, blocks: list[tecplot.Block], cal: NemohCal) -> Array:
         elif radians:
             angle = float(radians[1])
             if abs(angle) > 4.0 * np.pi:
-                raise DatabaseError(
-                    f"{path}:{block.line - 1}: angle {angle:g}: expected radians; degrees?"
+                raise DatabaseError(f"angle {angle:g}: expected radians; degrees?").about(
+                    "units", "headings", file=path, line=block.line - 1
                 )
             titles.append(float(np.degrees(angle)))
         else:
-            raise DatabaseError(f"{path}:{block.line - 1}: no heading in {block.title!r}")
+            raise DatabaseError(f"no heading in {block.title!r}").about(
+                "missing", "headings", file=path, line=block.line - 1
+            )
     stated = np.array(titles)
     # titles carry three decimals, Nemoh.cal all of them
     if cal.heading_deg.size == stated.size and np.allclose(cal.heading_deg, stated, atol=2e-3):
@@ -211,19 +219,19 @@ def _same_grid(
     """Refuse a zone whose frequencies are not those of the `first` one of the radiation."""
     if found.shape != omega.shape:
         raise DatabaseError(
-            f"{path}:{block.line}: the frequencies of this zone are not those of the first one of "
+            f"the frequencies of this zone are not those of the first one of "
             f"RadiationCoefficients.tec ({found.size} and {omega.size}): files of different runs?"
-        )
+        ).about("conflict", "frequencies", file=path, line=block.line)
     wrong = np.flatnonzero(~np.isclose(found, omega, rtol=1e-5))
     if not wrong.size:
         return
     row = int(wrong[0])
     place = "RadiationCoefficients.tec" if first is None else f"line {first.line_of(row, columns)}"
     raise DatabaseError(
-        f"{path}:{block.line_of(row, columns)}: {found[row]:g} rad/s, but {omega[row]:g} in "
+        f"{found[row]:g} rad/s, but {omega[row]:g} in "
         f"{place}; so in {wrong.size} of {omega.size} rows: "
         + ("is one of them garbled?" if wrong.size < 3 else "files of different runs?")
-    )
+    ).about("conflict", "frequencies", file=path, line=block.line_of(row, columns))
 
 
 def _point(name: str, body: CalBody) -> Array | None:
@@ -231,7 +239,9 @@ def _point(name: str, body: CalBody) -> Array | None:
     lines = [m for m in (*body.motions, *body.forces) if m.dof >= 3]
     points = {m.point for m in lines or (*body.motions, *body.forces)}
     if lines and len(points) > 1:
-        raise DatabaseError(f"body {name!r}: moments about several points: {sorted(points)}")
+        raise DatabaseError(f"body {name!r}: moments about several points: {sorted(points)}").about(
+            "point", name
+        )
     return np.array(points.pop()) if len(points) == 1 else None
 
 

@@ -12,7 +12,7 @@ from pathlib import Path, PureWindowsPath
 
 import numpy as np
 
-from hydrodae.errors import DatabaseError
+from hydrodae.errors import DatabaseError, Refusal
 from hydrodae.hdb.labels import DOFS
 from hydrodae.hdb.readers.text import number, read_lines, words
 from hydrodae.support.arrays import Array
@@ -76,12 +76,14 @@ class _Lines:
 
     def next(self, meaning: str) -> str:
         if self.at >= len(self.lines):
-            raise DatabaseError(f"{self.path}:{self.at}: the file ends before {meaning}")
+            raise DatabaseError(f"the file ends before {meaning}").about(
+                "cut_short", file=self.path, line=self.at
+            )
         self.at += 1
         return self.lines[self.at - 1]
 
-    def fail(self, message: str) -> DatabaseError:
-        return DatabaseError(f"{self.path}:{self.at}: {message}")
+    def fail(self, message: str, reason: Refusal = "format") -> DatabaseError:
+        return DatabaseError(message).about(reason, file=self.path, line=self.at)
 
     def numbers(self, meaning: str, least: int) -> list[float]:
         """Leading numbers of the next line, before any `!`."""
@@ -104,7 +106,7 @@ class _Lines:
         """Leading number of the next line, > 0."""
         value = self.numbers(meaning, 1)[0]
         if value <= 0.0:
-            raise self.fail(f"{meaning} {value:g}: expected a number > 0")
+            raise self.fail(f"{meaning} {value:g}: expected a number > 0", "value")
         return value
 
     def depth(self) -> float:
@@ -115,7 +117,9 @@ class _Lines:
         self.at = at
         value = self.numbers("the water depth", 1)[0]
         if value < 0.0:
-            raise self.fail(f"the water depth {value:g} m: expected > 0, or 0 for infinitely deep")
+            raise self.fail(
+                f"the water depth {value:g} m: expected > 0, or 0 for infinitely deep", "value"
+            )
         return value if value > 0.0 else np.inf
 
     def count(self, meaning: str) -> int:
@@ -188,7 +192,8 @@ def _read_mode(lines: _Lines) -> CalMode:
     if kind not in (1, 2) or axis.size != 1 or np.count_nonzero(direction) != 1:
         raise lines.fail(
             f"only the six rigid motions along the axes ({', '.join(DOFS)}) are supported, "
-            f"got type {kind:g}, direction {direction.tolist()}"
+            f"got type {kind:g}, direction {direction.tolist()}",
+            "unsupported",
         )
     return CalMode(int(axis[0]) + (3 if kind == 2 else 0), (point[0], point[1], point[2]))
 
@@ -201,11 +206,11 @@ def _read_frequencies(lines: _Lines) -> Array:
         kind = int(values[0])
         values = values[1:]
     if kind not in FREQUENCY_TYPES:
-        raise lines.fail(f"frequency type {kind}; known are 1 = rad/s, 2 = Hz, 3 = s")
+        raise lines.fail(f"frequency type {kind}; known are 1 = rad/s, 2 = Hz, 3 = s", "units")
     many = lines.whole(values[0], "the number of frequencies")
     grid = np.linspace(values[1], values[2], many)
     if grid.size == 0 or np.any(grid <= 0.0):
-        raise lines.fail("frequencies must be > 0")
+        raise lines.fail("frequencies must be > 0", "frequencies")
     if kind == 1:
         return grid
     return 2.0 * np.pi * grid if kind == 2 else 2.0 * np.pi / grid

@@ -50,7 +50,9 @@ def find(root: Path, *names: str) -> Path | None:
         below = [p for p in below if p.parent.name.lower() != "mechanics"] or below
         for found in (here, below):
             if len(found) > 1:
-                raise DatabaseError(f"two files could be meant: {found[0]} and {found[1]}")
+                raise DatabaseError(f"two files could be meant: {found[0]} and {found[1]}").about(
+                    "ambiguous"
+                )
             if found:
                 return found[0]
     return None
@@ -189,9 +191,9 @@ def _read_one(
     least = 1e-4 * abs(values["displacement"]) ** (2.0 / 3.0)
     if area is not None and abs(area - hs.waterplane_area) > 0.01 * max(abs(area), least):
         raise DatabaseError(
-            f"{matrix}: K33 belongs to a waterplane of {hs.waterplane_area:.5g} m2, but "
+            f"K33 belongs to a waterplane of {hs.waterplane_area:.5g} m2, but "
             f"{text.name} says {area:.5g} m2; the files are of different runs"
-        )
+        ).about("conflict", "K33", file=matrix)
     return FileHydrostatics(hs, gravity_center, (text, matrix))
 
 
@@ -206,9 +208,11 @@ def _read_text(path: Path) -> tuple[Array, Array, dict[str, float]]:
             elif value:
                 values[value[1].lower()] = finite(value[2])
         except ValueError as error:
-            raise DatabaseError(f"{path}:{i}: {error}") from None
+            raise DatabaseError(f"{error}").about("format", file=path, line=i) from None
     if len(pairs) != 3 or "displacement" not in values:
-        raise DatabaseError(f"{path}: expected three lines 'XF = . - XG = .' and a displacement")
+        raise DatabaseError("expected three lines 'XF = . - XG = .' and a displacement").about(
+            "format", file=path
+        )
     table = np.array(pairs)
     return table[:, 0], table[:, 1], values
 
@@ -219,9 +223,11 @@ def _read_matrix(path: Path) -> Array:
         matrix = np.array([[finite(t) for t in row] for row in rows[:6]])
     except ValueError as error:
         line = _line_of(path)
-        raise DatabaseError(f"{path}:{line}: not numbers of a 6 x 6 matrix ({error})") from None
+        raise DatabaseError(f"not numbers of a 6 x 6 matrix ({error})").about(
+            "format", file=path, line=line
+        ) from None
     if matrix.shape != (6, 6):
-        raise DatabaseError(f"{path}: not a 6 x 6 matrix but {matrix.shape}")
+        raise DatabaseError(f"not a 6 x 6 matrix but {matrix.shape}").about("shape", file=path)
     return matrix
 
 

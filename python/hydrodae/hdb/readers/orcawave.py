@@ -59,7 +59,9 @@ def orcawave_file(path: Path) -> Path | None:
     paths = [path] if path.is_file() else sorted(path.iterdir())
     found = [p for p in paths if p.suffix.lower() in (".yml", ".yaml") and _has_tables(p)]
     if len(found) > 1:
-        raise DatabaseError(f"{path}: which one is meant? {', '.join(p.name for p in found)}")
+        raise DatabaseError(f"which one is meant? {', '.join(p.name for p in found)}").about(
+            "ambiguous", file=path
+        )
     return found[0] if found else None
 
 
@@ -84,11 +86,11 @@ def read_orcawave(path: Path) -> SourceData:
     model = read_yaml(path)
     if "MultibodyGroups" in model:
         raise DatabaseError(
-            f"{path}: a multibody group, whose coupling is not read here; {CONVERTER}"
-        )
+            f"a multibody group, whose coupling is not read here; {CONVERTER}"
+        ).about("unsupported", file=path)
     types = model.get("VesselTypes")
     if not isinstance(types, list) or not types:
-        raise DatabaseError(f"{path}: no VesselTypes in it")
+        raise DatabaseError("no VesselTypes in it").about("missing", "VesselTypes", file=path)
     findings: list[Finding] = []
     units = units_of(path, model.get("General") or {})
     rho, gravity, depth, files = water_of(path, model, findings)
@@ -97,7 +99,9 @@ def read_orcawave(path: Path) -> SourceData:
     omega, heading = bodies[0].omega, bodies[0].heading
     for body in bodies[1:]:
         if not np.array_equal(body.omega, omega) or not np.array_equal(body.heading, heading):
-            raise DatabaseError(f"{path}: vessel types with different frequencies or directions")
+            raise DatabaseError("vessel types with different frequencies or directions").about(
+                "conflict", file=path
+            )
     size = 6 * len(bodies)
     a, b = np.zeros((omega.size, size, size)), np.zeros((omega.size, size, size))
     inf = np.zeros((size, size))
@@ -152,9 +156,9 @@ class _Vessel:
         self.symmetry = str(vessel.get("Symmetry", "None"))
         if self.symmetry not in SYMMETRIES:
             raise DatabaseError(
-                f"{path}: {self.name}: Symmetry {self.symmetry!r}: expected one of "
+                f"{self.name}: Symmetry {self.symmetry!r}: expected one of "
                 f"{', '.join(SYMMETRIES)}; save all directions in OrcaFlex (Symmetry: None)"
-            )
+            ).about("unsupported", "Symmetry", file=path)
         draught = self._entry(vessel, "Draughts")[0]
         self.draught = draught
         self.waves = vessel.get("WavesReferredToBy", "period (s)")
@@ -172,7 +176,7 @@ class _Vessel:
     def _entry(self, where: dict[str, Any], key: str) -> list[Any]:
         value = where.get(key)
         if not isinstance(value, list) or not value:
-            raise DatabaseError(f"{self.path}: {self.name}: no {key}")
+            raise DatabaseError(f"{self.name}: no {key}").about("missing", key, file=self.path)
         return value
 
     def _vector(self, where: dict[str, Any], key: str) -> Array:
@@ -185,21 +189,21 @@ class _Vessel:
         size = " x ".join(str(n) for n in shape)
         for wrong in (v for v in flat if not isinstance(v, float)):
             raise DatabaseError(
-                f"{line_of(self.path, str(wrong))}: {self.name}: {key}: {wrong!r} is not a number; "
-                f"expected {size}"
-            )
+                f"{self.name}: {key}: {wrong!r} is not a number; expected {size}"
+            ).about("format", key, file=self.path, line=line_of(self.path, str(wrong)))
         even = all(isinstance(row, list) and len(row) == shape[-1] for row in rows)
         if len(rows) != shape[0] or (len(shape) > 1 and not even):
-            raise DatabaseError(f"{self.path}: {self.name}: {key}: expected {size} numbers")
+            raise DatabaseError(f"{self.name}: {key}: expected {size} numbers").about(
+                "shape", key, file=self.path
+            )
         return np.array(rows, dtype=float)
 
     def _omega(self, value: Any) -> float:
         if isinstance(value, str) and value.lower() == "infinity":
             value = np.inf
         if not isinstance(value, float) or np.isnan(value):
-            raise DatabaseError(
-                f"{line_of(self.path, str(value))}: {self.name}: {value!r} is no period or "
-                f"frequency"
+            raise DatabaseError(f"{self.name}: {value!r} is no period or frequency").about(
+                "format", file=self.path, line=line_of(self.path, str(value))
             )
         if self.waves.startswith("frequency (rad"):
             return value
@@ -228,13 +232,15 @@ class _Vessel:
         origin, phase_origin = loads.get("RAOOrigin"), loads.get("PhaseOrigin")
         if not np.allclose(self._vector(loads, "RAOOrigin"), self.point, atol=1e-6):
             raise DatabaseError(
-                f"{self.path}: {self.name}: RAOOrigin {origin} is not ReferenceOrigin "
+                f"{self.name}: RAOOrigin {origin} is not ReferenceOrigin "
                 f"{self.point.tolist()}: export both about one point"
-            )
+            ).about("point", self.name, file=self.path)
         unit = vessel.get("RAOPhaseUnitsConvention", "degrees")
         relative = vessel.get("RAOPhaseRelativeToConvention", "crest")
         if unit not in ("degrees", "radians") or relative not in ("crest", "trough"):
-            raise DatabaseError(f"{self.path}: {self.name}: phases in {unit} about the {relative}")
+            raise DatabaseError(f"{self.name}: phases in {unit} about the {relative}").about(
+                "unsupported", "phases", file=self.path
+            )
         sense = 1.0 if vessel.get("RAOPhaseConvention", "leads") == "leads" else -1.0
         sense *= np.pi / 180.0 if unit == "degrees" else 1.0
         factor = self.units.force / self.units.length * (1.0 if relative == "crest" else -1.0)
@@ -255,8 +261,8 @@ class _Vessel:
             table = table[np.argsort(table[:, 0])]
             if table.shape != (self.omega.size, 13) or not np.allclose(table[:, 0], self.omega):
                 raise DatabaseError(
-                    f"{self.path}: {self.name}: LoadRAOs at other frequencies than added mass"
-                )
+                    f"{self.name}: LoadRAOs at other frequencies than added mass"
+                ).about("conflict", "frequencies", file=self.path)
             result[:, h] = factor * table[:, 1::2] * np.exp(1j * sense * table[:, 2::2])
         if phase_origin is None or any(v is None for v in phase_origin):
             place = self.point  # `~` stands for the RAO origin
@@ -292,7 +298,9 @@ class _Vessel:
             return None  # the file does not say whether the weight is in the stiffness
         volume = self.draught.get("DisplacedVolume")
         if not isinstance(volume, float):
-            raise DatabaseError(f"{self.path}: {self.name}: DisplacedVolume: expected a number")
+            raise DatabaseError(f"{self.name}: DisplacedVolume: expected a number").about(
+                "format", "DisplacedVolume", file=self.path
+            )
         volume *= self.units.length**3
         center = self._vector(self.draught, "CentreOfBuoyancy")
         return Hydrostatics.from_stiffness(stiffness, self.point, volume, center, rho, gravity)

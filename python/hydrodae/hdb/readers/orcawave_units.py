@@ -57,21 +57,21 @@ def units_of(path: Path, settings: dict[str, Any]) -> Units:
         return Units()
     if system != "User":
         raise DatabaseError(
-            f"{path}: UnitsSystem {system}: expected SI or User: choose one in OrcaFlex and save "
-            f"again"
-        )
+            f"UnitsSystem {system}: expected SI or User: choose one in OrcaFlex and save again"
+        ).about("units", "UnitsSystem", file=path)
     found = []
     for key, known in (("LengthUnits", LENGTHS), ("MassUnits", MASSES), ("ForceUnits", FORCES)):
         word = str(settings.get(key))
         if word not in known:
             raise DatabaseError(
-                f"{path}: {key} {word}: expected {', '.join(known)}: choose one in OrcaFlex and "
-                f"save again"
-            )
+                f"{key} {word}: expected {', '.join(known)}: choose one in OrcaFlex and save again"
+            ).about("units", key, file=path)
         found.append(known[word])
     gravity = settings.get("g", STANDARD_GRAVITY / found[0])
     if not isinstance(gravity, float):
-        raise DatabaseError(f"{path}: g: expected a number, got {gravity!r}")
+        raise DatabaseError(f"g: expected a number, got {gravity!r}").about(
+            "format", "g", file=path
+        )
     return Units(found[0], found[1], found[2], gravity * found[0])
 
 
@@ -100,7 +100,9 @@ def water_of(
     environment = model.get("Environment") or {}
     rho, depth = environment.get("Density"), environment.get("WaterDepth")
     if not isinstance(rho, float) or not isinstance(depth, float):
-        raise DatabaseError(f"{path}: no Density and WaterDepth in Environment")
+        raise DatabaseError("no Density and WaterDepth in Environment").about(
+            "missing", "water", file=path
+        )
     depth *= units.length
     text = (
         f"depth {depth:g} m is that of the OrcaFlex model; the diffraction analysis may have had "

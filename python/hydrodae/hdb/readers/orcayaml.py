@@ -49,11 +49,13 @@ def read_yaml(path: Path) -> dict[str, Any]:
         value = yaml.load(read_text(path), Loader=_Loader)
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
-        place = path if mark is None else f"{path}:{mark.line + 1}"
+        line = 0 if mark is None else mark.line + 1
         what = getattr(error, "problem", None) or str(error)
-        raise DatabaseError(f"{place}: not YAML: {what}") from None
+        raise DatabaseError(f"not YAML: {what}").about("format", file=path, line=line) from None
     if value is None:
         return {}
     if not isinstance(value, dict):
-        raise DatabaseError(f"{path}: not a data file of OrcaFlex: expected `key: value`")
+        raise DatabaseError("not a data file of OrcaFlex: expected `key: value`").about(
+            "format", file=path
+        )
     return value

@@ -71,7 +71,7 @@ def _naming(path: Path, error: DatabaseError) -> DatabaseError:
     """Return the error with the file in front, where it names none."""
     text = str(error)
     named = path.name in text or str(path.parent) in text
-    return error if named else DatabaseError(f"{path}: {text}")
+    return error if named else error.in_file(path)
 
 
 def _read(path: Path, what: str, water: Water) -> SourceData:
@@ -86,7 +86,7 @@ def _read(path: Path, what: str, water: Water) -> SourceData:
     elif what == "capytaine":
         from hydrodae.hdb.readers.capytaine import read_capytaine as reader
     else:
-        raise DatabaseError(f"{path}: a finished hydro.h5, not a source")
+        raise DatabaseError("a finished hydro.h5, not a source").about("unsupported", file=path)
     return reader(path)
 
 
@@ -97,9 +97,9 @@ def _check_tables(path: Path, data: SourceData) -> None:
     if wrong.size or not w.size:
         where = f", {w[wrong[0]]:g} rad/s at place {wrong[0] + 1}" if wrong.size else ""
         raise DatabaseError(
-            f"{path}: {w.size} frequencies{where}; expected some > 0, each above the one before: "
+            f"{w.size} frequencies{where}; expected some > 0, each above the one before: "
             f"is the column of frequencies another, or the file cut short?"
-        )
+        ).about("frequencies", file=path)
     for name in ("added_mass", "radiation_damping", *FORCES):
         table = getattr(data, name)
         if table is not None:
@@ -120,7 +120,9 @@ def _check_tables(path: Path, data: SourceData) -> None:
         ("water depth", data.water_depth, 0.0, np.inf, "m"),
     ):
         if not value > 0.0 or (what != "water depth" and not np.isfinite(value)):
-            raise DatabaseError(f"{path}: {what} {value:g} {unit}: expected a number > 0")
+            raise DatabaseError(f"{what} {value:g} {unit}: expected a number > 0").about(
+                "value", what, file=path
+            )
         if not low <= value <= high:
             text = f"{what} {value:g} {unit}: not of water on earth ({low:g} to {high:g})"
             data.findings.append(Finding("warning", "water", text, value=float(value)))
@@ -134,7 +136,9 @@ def _check_water(path: Path, stated: SourceData | HydroDatabase, given: Water) -
         ("gravity", stated.gravity, given.gravity, "m/s2"),
     ):
         if value is not None and value != known and not np.isclose(value, known, rtol=1e-3):
-            raise DatabaseError(f"{path}: the {what} there is {known:g} {unit}, not {value:g}")
+            raise DatabaseError(f"the {what} there is {known:g} {unit}, not {value:g}").about(
+                "conflict", what, file=path
+            )
 
 
 def read(

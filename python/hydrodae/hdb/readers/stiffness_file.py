@@ -53,7 +53,9 @@ class StiffnessFile:
             Neither volume nor mass is known.
         """
         if volume is None and not self.mass:
-            raise DatabaseError("the displaced volume is needed: give it by --volume V [m3]")
+            raise DatabaseError("the displaced volume is needed: give it by --volume V [m3]").about(
+                "missing", "volume"
+            )
         known = volume if volume is not None else (self.mass or 0.0) / rho
         return Hydrostatics.from_stiffness(self.stiffness, point, known, point, rho, gravity)
 
@@ -75,7 +77,9 @@ def read_stiffness(path: str | Path) -> StiffnessFile:
     try:
         lines = read_lines(file)
     except OSError as error:
-        raise DatabaseError(f"{file}: cannot be read: {error.strerror}") from error
+        raise DatabaseError(f"cannot be read: {error.strerror}").about(
+            "missing", file=file
+        ) from error
     heads = [i for i, line in enumerate(lines) if "hydrostatic restoring" in line.lower()]
     if heads:
         masses = [i for i, line in enumerate(lines) if "mass matrix" in line.lower()]
@@ -98,8 +102,9 @@ def _rows(file: Path, lines: list[str], start: int) -> Array:
         except ValueError:
             rows.append([])
         if len(rows[-1]) != 6:
-            place = f"{file}:{number}"
-            raise DatabaseError(f"{place}: expected a row of 6 numbers, got {line.strip()!r}")
+            raise DatabaseError(f"expected a row of 6 numbers, got {line.strip()!r}").about(
+                "format", file=file, line=number
+            )
         if len(rows) == 6:
             return np.array(rows)
-    raise DatabaseError(f"{file}: expected 6 rows of 6 numbers, got {len(rows)}")
+    raise DatabaseError(f"expected 6 rows of 6 numbers, got {len(rows)}").about("shape", file=file)

@@ -81,7 +81,7 @@ def read_blocks(path: Path) -> tuple[str, list[Block]]:
                 header.append(title)
     close()
     if not blocks:
-        raise DatabaseError(f"{path}: no numbers in it")
+        raise DatabaseError("no numbers in it").about("missing", "numbers", file=path)
     return "\n".join(header), blocks
 
 
@@ -97,19 +97,20 @@ def table(path: Path, block: Block, columns: int, meaning: str) -> Array:
     for i, count in enumerate(block.counts):
         if count != pattern[i % len(pattern)]:
             raise DatabaseError(
-                f"{path}:{block.line + i}: {count} numbers on this line, but a row has {columns}: "
-                f"{meaning}"
-            )
+                f"{count} numbers on this line, but a row has {columns}: {meaning}"
+            ).about("shape", file=path, line=block.line + i)
     if block.values.size % columns:
         last = block.line + len(block.counts) - 1
-        raise DatabaseError(f"{path}:{last}: the last row of {columns} is cut short: {meaning}")
+        raise DatabaseError(f"the last row of {columns} is cut short: {meaning}").about(
+            "cut_short", file=path, line=last
+        )
     stated = re.search(r"\bI\s*=\s*(\d+)", block.title)
     rows = block.values.size // columns
     if stated and int(stated[1]) != rows:
         raise DatabaseError(
-            f"{path}:{block.line}: {rows} rows, but the zone says {stated[1]}; the file is cut off "
+            f"{rows} rows, but the zone says {stated[1]}; the file is cut off "
             f"or was written by another run"
-        )
+        ).about("cut_short", file=path, line=block.line)
     return block.values.reshape(rows, columns)
 
 
@@ -128,9 +129,8 @@ def to_omega(path: Path, header: str, block: Block, table: Array) -> Array:
     if wrong.any():
         row = int(wrong.argmax())
         raise DatabaseError(
-            f"{path}:{block.line_of(row, table.shape[1])}: the first column (frequency) must be "
-            f"> 0, but is {first[row]:g}"
-        )
+            f"the first column (frequency) must be > 0, but is {first[row]:g}"
+        ).about("frequencies", file=path, line=block.line_of(row, table.shape[1]))
     found = _VARIABLE.search(header)
     unit = found[2].strip().lower() if found else "rad/s"
     if unit == "rad/s":
@@ -139,7 +139,9 @@ def to_omega(path: Path, header: str, block: Block, table: Array) -> Array:
         return 2.0 * np.pi * first
     if unit == "s":
         return 2.0 * np.pi / first
-    raise DatabaseError(f"{path}: first column in {unit!r}; known are rad/s, Hz and s")
+    raise DatabaseError(f"first column in {unit!r}; known are rad/s, Hz and s").about(
+        "units", "frequency", file=path
+    )
 
 
 def _row(path: Path, line: int, tokens: list[str]) -> list[float]:
@@ -152,7 +154,9 @@ def _row(path: Path, line: int, tokens: list[str]) -> list[float]:
         try:
             row.append(number(token))
         except ValueError:
-            raise DatabaseError(f"{path}:{line}: {token!r} is not a number") from None
+            raise DatabaseError(f"{token!r} is not a number").about(
+                "format", file=path, line=line
+            ) from None
     return row
 
 

@@ -63,9 +63,9 @@ def finite(token: str) -> float:
     return value
 
 
-def line_of(path: Path, word: str) -> str:
-    """Return `file:line` of the first line that holds a word; the file alone where none does."""
+def line_of(path: Path, word: str) -> int:
+    """Number of the first line that holds a word, from 1; 0 where none does."""
     for count, line in enumerate(read_lines(path), start=1):
         if word in line:
-            return f"{path}:{count}"
-    return str(path)
+            return count
+    return 0

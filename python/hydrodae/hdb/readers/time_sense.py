@@ -99,11 +99,11 @@ def _statement(data: SourceData, stated: str) -> Mapping[str, str]:
             raise DatabaseError(
                 f"time convention {item.strip()!r}: expected format or other, for all forces or as "
                 f"in froude-krylov=other,diffraction=other"
-            )
+            ).about("option", "time_convention")
         if word not in there:
             raise DatabaseError(
                 f"time convention of {word}: the source holds {', '.join(there) or 'no forces'}"
-            )
+            ).about("missing", word)
         found[PARTS[word]] = value
     return found
 

@@ -75,7 +75,7 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
     """
     stem = wamit_stem(path)
     if stem is None:
-        raise DatabaseError(f"{path}: no WAMIT output file .1 or .out beside it")
+        raise DatabaseError("no WAMIT output file .1 or .out beside it").about("missing", file=path)
     control = read_control(stem)
     findings: list[Finding] = []
     water = water or Water()
@@ -107,7 +107,9 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
     usual = np.isfinite(omega_of) & (omega_of > 0.0)
     if np.isnan(rows[usual, 4]).any():
         line = lines[int(np.flatnonzero(usual & np.isnan(rows[:, 4]))[0])]
-        raise DatabaseError(f"{radiation}:{line}: no damping: expected period, I, J, A, B")
+        raise DatabaseError("no damping: expected period, I, J, A, B").about(
+            "shape", file=radiation, line=line
+        )
     known = at[finite]
     scales = (length, depth, gravity)
     findings += asked_findings(control.asked, radiation, known, modes, names, scales, option)
@@ -156,7 +158,9 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
         read = _forces(file, found, modes, option, (length, depth, gravity), omega)
         forces[key] = rho * gravity * length ** (2.0 + rotation) * read[0]
         if heading.size and not np.array_equal(heading, read[1]):
-            raise DatabaseError(f"{file}: headings differ from those of the other force files")
+            raise DatabaseError("headings differ from those of the other force files").about(
+                "conflict", "headings", file=file
+            )
         heading = read[1]
     if control.frequencies is not None and control.frequencies != at.size:
         text = f"{stem.name}.pot asks for {control.frequencies}, {radiation.name} holds {at.size}"
@@ -236,7 +240,9 @@ def _modes(
     """Modes that are kept (from 1), names of the bodies, and coordinates."""
     modes = np.unique(rows[:, 1:3])
     if np.any(modes < 1) or np.any(modes != np.round(modes)):
-        raise DatabaseError(f"{path}: columns 2 and 3 must be modes 1, 2, ...")
+        raise DatabaseError("columns 2 and 3 must be modes 1, 2, ...").about(
+            "label", "modes", file=path
+        )
     bodies = len(control.points) or int((modes.max() + 5) // 6)
     extra = modes[modes > 6 * bodies]
     flexible = bodies == 1 and beside(stem, ".hst") is not None
@@ -283,9 +289,9 @@ def _forces(
     grid, heading = np.unique(rows[:, 0]), np.unique(rows[:, 1])
     if grid.size != omega.size or not np.allclose(grid, omega, rtol=1e-5):
         raise DatabaseError(
-            f"{path}: {grid.size} frequencies, not the {omega.size} of the .1 file: "
+            f"{grid.size} frequencies, not the {omega.size} of the .1 file: "
             f"files of different runs?"
-        )
+        ).about("conflict", "frequencies", file=path)
     values = rows[:, 5] + 1j * rows[:, 6]
     axes = (grid, heading, modes)
     return np.asarray(tables.scatter(path, rows, lines, (0, 1, 2), axes, values)), heading

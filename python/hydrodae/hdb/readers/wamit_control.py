@@ -117,13 +117,13 @@ def _numbers(text: str) -> list[float]:
     return [float(n.upper().replace("D", "E")) for n in _NUMBERS.findall(text)]
 
 
-def _leading(line: str, where: str) -> list[float]:
-    """Numbers at the start of a line, up to the first word that is none; `where` is file:line."""
+def _leading(line: str, path: Path, count: int) -> list[float]:
+    """Numbers at the start of line `count` of a file, up to the first word that is none."""
     found = []
     try:
         separate = words(line)
     except ValueError as error:
-        raise DatabaseError(f"{where}: {error}") from None
+        raise DatabaseError(f"{error}").about("format", file=path, line=count) from None
     for word in separate:
         if not re.fullmatch(NUMBER, word):
             break
@@ -146,12 +146,14 @@ def _cfg(path: Path, control: Control) -> None:
 def _pot(path: Path, control: Control) -> None:
     """Read a potential control file: form 2 (with NBODY), or form 1 (one body)."""
     lines = read_lines(path)
-    values = [_leading(line, f"{path}:{n}") for n, line in enumerate(lines[1:], start=2)]
+    values = [_leading(line, path, n) for n, line in enumerate(lines[1:], start=2)]
     values.insert(0, [])  # a title
 
     def expect(row: int, count: int, what: str) -> list[float]:
         if row >= len(lines) or len(values[row]) < count:
-            raise DatabaseError(f"{path}:{row + 1}: expected {count} numbers: {what}")
+            raise DatabaseError(f"expected {count} numbers: {what}").about(
+                "format", file=path, line=row + 1
+            )
         return values[row][:count]
 
     (depth,) = expect(1, 1, "HBOT")
@@ -172,7 +174,9 @@ def _pot(path: Path, control: Control) -> None:
     modes: list[list[int]] = []
     for _ in range(bodies):
         if row >= len(lines) or not lines[row].strip():
-            raise DatabaseError(f"{path}:{row + 1}: expected the .gdf file of a body")
+            raise DatabaseError("expected the .gdf file of a body").about(
+                "format", file=path, line=row + 1
+            )
         control.names.append(PureWindowsPath(lines[row].split()[0]).stem)
         control.points.append(_point(path, row + 1, expect(row + 1, 4, "XBODY(1-4)")))
         chosen = expect(row + 2, 6, "MODE(1-6)")
@@ -195,8 +199,8 @@ def _skip(values: list[list[float]], row: int, count: int) -> int:
 def _point(path: Path, row: int, xbody: list[float]) -> Array:
     if xbody[3] != 0.0:
         raise DatabaseError(
-            f"{path}:{row + 1}: body axes turned by XBODY(4) = {xbody[3]:g} deg; run it with 0"
-        )
+            f"body axes turned by XBODY(4) = {xbody[3]:g} deg; run it with 0"
+        ).about("unsupported", "XBODY", file=path, line=row + 1)
     return np.array(xbody[:3])
 
 
@@ -221,8 +225,8 @@ def _listing(path: Path, control: Control) -> None:
         if place and not known:
             found = _numbers(line)
             if len(found) != 4 or found[3] != 0.0:
-                raise DatabaseError(
-                    f"{path}:{count}: body axes turned: {line.strip()!r}; run it with 0"
+                raise DatabaseError(f"body axes turned: {line.strip()!r}; run it with 0").about(
+                    "unsupported", "XBODY", file=path, line=count
                 )
             control.points.append(np.array(found[:3]))
         row = re.match(r"\s*C\((\d),\d\)[C(),\d]*:(.*)", line)
@@ -260,7 +264,7 @@ def _frc(stem: Path, control: Control) -> None:
     form = re.search(r"IALTFRC\s*=\s*(\d)", read_text(matrix))
     lines = read_lines(path)
     if form and form[1] != "1" and len(lines) > 2:
-        found = _leading(lines[2], f"{path}:3")
+        found = _leading(lines[2], path, 3)
         if found and found[0] > LEAST_DENSITY:
             control.rho = found[0]
             control.files.append(path)
@@ -294,7 +298,9 @@ def _hams(path: Path, control: Control) -> None:
     text = read_text(path)
     depth = re.search(rf"Waterdepth\s+({NUMBER})(?!,)", text, re.IGNORECASE)
     if depth is None:
-        raise DatabaseError(f"{path}: no line Waterdepth with a number")
+        raise DatabaseError("no line Waterdepth with a number").about(
+            "missing", "Waterdepth", file=path
+        )
     (value,) = _numbers(depth[1])
     control.depth = np.inf if value <= 0.0 else value
     center = re.search(rf"Reference_body_center((?:\s+{NUMBER}){{3}})", text)
@@ -306,7 +312,9 @@ def _hams(path: Path, control: Control) -> None:
     kind = re.search(r"Output_frequency_type\s+(\d)", text)
     if kind and control.first_column is None:
         if kind[1] not in HAMS:
-            raise DatabaseError(f"{path}: Output_frequency_type {kind[1]}: expected 1 to 4")
+            raise DatabaseError(f"Output_frequency_type {kind[1]}: expected 1 to 4").about(
+                "format", "Output_frequency_type", file=path
+            )
         control.first_column = HAMS[kind[1]]
     control.asked = of_hams(path, text)
 
@@ -315,13 +323,15 @@ def _after(path: Path, count: int, line: str) -> Array:
     """Three numbers behind the brackets and the colon."""
     found = _numbers(line[max(line.rfind(":"), line.rfind(")")) + 1 :])
     if len(found) != 3:
-        raise DatabaseError(f"{path}:{count}: expected 3 numbers in {line.strip()!r}")
+        raise DatabaseError(f"expected 3 numbers in {line.strip()!r}").about(
+            "format", file=path, line=count
+        )
     return np.array(found)
 
 
 def _gdf(path: Path, control: Control) -> None:
     lines = read_lines(path)
-    found = _leading(lines[1], f"{path}:2") if len(lines) > 1 else []
+    found = _leading(lines[1], path, 2) if len(lines) > 1 else []
     if len(found) < 2:
-        raise DatabaseError(f"{path}:2: expected 2 numbers: ULEN and GRAV")
+        raise DatabaseError("expected 2 numbers: ULEN and GRAV").about("format", file=path, line=2)
     control.length, control.gravity = found[0], found[1]

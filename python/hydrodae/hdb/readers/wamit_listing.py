@@ -88,7 +88,9 @@ def read_listing(path: Path) -> Listing:
         elif re.search(r"Wave (period|heading)[^=:]*[=:]\s*\S", line, re.IGNORECASE) and not (
             _HEADING.search(line)
         ):
-            raise DatabaseError(f"{path}:{count}: not a number: {line.strip()[:60]!r}")
+            raise DatabaseError(f"not a number: {line.strip()[:60]!r}").about(
+                "format", file=path, line=count
+            )
         elif not told and (row_of := _SOLVED.match(line)):
             solved.add(row_of[1])
         elif "ADDED-MASS" in line:
@@ -113,13 +115,13 @@ def read_listing(path: Path) -> Listing:
                 forces[table].add(count, row)
     if not radiation.values:
         raise DatabaseError(
-            f"{path}: no tables of added mass in it: run WAMIT again with IOPTN(1) = 1 in its .frc"
-        )
+            "no tables of added mass in it: run WAMIT again with IOPTN(1) = 1 in its .frc"
+        ).about("missing", "added_mass", file=path)
     if len(solved) > len(told):
         raise DatabaseError(
-            f"{path}: {len(solved)} periods were solved, results of {len(told)} follow: the file "
+            f"{len(solved)} periods were solved, results of {len(told)} follow: the file "
             f"is cut short"
-        )
+        ).about("cut_short", file=path)
     best = next((forces[title] for title in _FORCES if forces[title].values), _Rows())
     force = np.array(best.values) if best.values else np.zeros((0, 7))
     return Listing(
@@ -140,10 +142,12 @@ def _values(path: Path, count: int, line: str) -> list[float]:
     try:
         return [number(word) for word in line.split()]
     except ValueError:
-        raise DatabaseError(f"{path}:{count}: not numbers: {line.strip()[:60]!r}") from None
+        raise DatabaseError(f"not numbers: {line.strip()[:60]!r}").about(
+            "format", file=path, line=count
+        ) from None
 
 
 def _of_length(path: Path, count: int, row: list[float], size: int, what: str) -> list[float]:
     if len(row) != size:
-        raise DatabaseError(f"{path}:{count}: expected {what}")
+        raise DatabaseError(f"expected {what}").about("format", file=path, line=count)
     return row

@@ -46,7 +46,9 @@ def settled(
     ):
         same = stated is None or given is None or stated == given
         if not same and not np.isclose(given, stated, rtol=1e-3):  # type: ignore[arg-type]
-            raise DatabaseError(f"{stem}: its files say {what} {stated:g} {unit}, not {given:g}")
+            raise DatabaseError(f"its files say {what} {stated:g} {unit}, not {given:g}").about(
+                "conflict", what, file=stem
+            )
     depth = control.depth if water.depth is None else water.depth
     assumed = []
     if depth is None and not waves():
@@ -54,10 +56,10 @@ def settled(
         assumed.append("infinitely deep water: there are no forces of waves to need it (--depth)")
     if depth is None:
         raise DatabaseError(
-            f"{stem}: the water depth is in {stem.name}.pot or .out, in ControlFile.in of HAMS or "
+            f"the water depth is in {stem.name}.pot or .out, in ControlFile.in of HAMS or "
             f"in HydroDyn's input: all are missing; state it (depth=, --depth 70, or --depth inf)"
             f"{_also(stem, control, water)}"
-        )
+        ).about("missing", "depth", file=stem)
     rho = control.rho if water.density is None else water.density
     if rho is None:
         rho = SEA_WATER

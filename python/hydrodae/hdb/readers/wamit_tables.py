@@ -53,20 +53,24 @@ def read_rows(path: Path, least: int, most: int, meaning: str) -> tuple[Array, l
         except ValueError:
             if count == 1:
                 continue  # the title line
-            raise DatabaseError(
-                f"{path}:{count}: not numbers: {line.strip()[:60]!r}; expected {meaning}"
+            raise DatabaseError(f"not numbers: {line.strip()[:60]!r}; expected {meaning}").about(
+                "format", file=path, line=count
             ) from None
         if not all(map(math.isfinite, values[:2])):  # period or mode; tables may hold NaN
-            raise DatabaseError(f"{path}:{count}: {' '.join(words[:2])}: expected {meaning}")
+            raise DatabaseError(f"{' '.join(words[:2])}: expected {meaning}").about(
+                "format", file=path, line=count
+            )
         if not least <= len(values) <= most:
             wanted = f"{least}" if least == most else f"{least} or {most}"
-            raise DatabaseError(
-                f"{path}:{count}: {len(values)} numbers, expected {wanted}: {meaning}"
+            raise DatabaseError(f"{len(values)} numbers, expected {wanted}: {meaning}").about(
+                "shape", file=path, line=count
             )
         rows.append(values + [np.nan] * (most - len(values)))
         lines.append(count)
     if not rows:
-        raise DatabaseError(f"{path}: no numbers in it; expected lines of {meaning}")
+        raise DatabaseError(f"no numbers in it; expected lines of {meaning}").about(
+            "missing", "numbers", file=path
+        )
     return np.array(rows), lines
 
 
@@ -108,7 +112,9 @@ def to_omega(
     elif option in (3, 4):
         omega[usual] = frequency(first[usual] / length, depth if option == 4 else np.inf, gravity)
     else:
-        raise DatabaseError(f"{path}: IPEROUT = {option} in the .cfg beside it: expected 1 to 4")
+        raise DatabaseError(f"IPEROUT = {option} in the .cfg beside it: expected 1 to 4").about(
+            "format", "IPEROUT", file=path
+        )
     omega[~usual] = np.where(first[~usual] == 0.0, 0.0, np.inf)
     return omega
 
@@ -121,9 +127,9 @@ def check_indices(
         wrong = np.flatnonzero(~np.isin(rows[:, column], known))
         if wrong.size:
             raise DatabaseError(
-                f"{path}:{lines[wrong[0]]}: {rows[wrong[0], column]:g} in column {column + 1} is "
+                f"{rows[wrong[0], column]:g} in column {column + 1} is "
                 f"no mode of the run (1 to {known.max():g})"
-            )
+            ).about("label", "modes", file=path, line=lines[wrong[0]])
 
 
 def check_parts(path: Path, rows: Array, lines: list[int], findings: list[Finding]) -> None:
@@ -140,10 +146,9 @@ def check_parts(path: Path, rows: Array, lines: list[int], findings: list[Findin
     if wrong.size:
         at = wrong[0]
         raise DatabaseError(
-            f"{path}:{lines[at]}: the modulus {modulus[at]:g} is not that of the real and "
-            f"imaginary part {rows[at, 5]:g} {rows[at, 6]:g}: columns in another order, or a "
-            f"garbled number"
-        )
+            f"the modulus {modulus[at]:g} is not that of the real and imaginary part "
+            f"{rows[at, 5]:g} {rows[at, 6]:g}: columns in another order, or a garbled number"
+        ).about("conflict", "modulus", file=path, line=lines[at])
     turned = np.abs(modulus * np.exp(1j * phase) - parts) > 0.02 * np.abs(parts) + least
     if turned.any():
         at = int(np.flatnonzero(turned)[0])
@@ -209,7 +214,9 @@ def scatter(
     _, once = np.unique(flat, return_index=True)
     if once.size < flat.size:
         again = min(set(range(flat.size)) - set(once.tolist()))
-        raise DatabaseError(f"{path}:{lines[again]}: this entry stands in the file twice")
+        raise DatabaseError("this entry stands in the file twice").about(
+            "conflict", "entry", file=path, line=lines[again]
+        )
     table.flat[flat] = values
     filled.flat[flat] = True
     partly = filled.any(axis=0) & ~filled.all(axis=0)
@@ -217,7 +224,7 @@ def scatter(
         where = np.argwhere(partly)[0]
         entry = [f"{a[i]:g}" for a, i in zip(axes[1:], where, strict=True)]
         raise DatabaseError(
-            f"{path}: the entry {' '.join(entry)} is missing at "
+            f"the entry {' '.join(entry)} is missing at "
             f"{(~filled[(slice(None), *where)]).sum()} of {axes[0].size} frequencies"
-        )
+        ).about("missing", "entry", file=path)
     return table

@@ -68,7 +68,9 @@ def radiation_kernel(
     w, b, shape = _table(omega, damping)
     t = np.asarray(time, dtype=float)
     if t.ndim != 1 or t.size == 0 or t.min() < 0.0:
-        raise DatabaseError("the times of a radiation kernel must be a list of numbers >= 0 [s]")
+        raise DatabaseError(
+            "the times of a radiation kernel must be a list of numbers >= 0 [s]"
+        ).about("option", "time")
     if not extrapolate:
         _refuse_gap(w, b)
     spline = _spline(w, b)
@@ -146,7 +148,9 @@ def added_mass_inf_estimates(
     a = np.asarray(added_mass, dtype=float)
     b = np.asarray(damping, dtype=float)
     if a.shape != b.shape:
-        raise DatabaseError(f"added mass {a.shape} and radiation damping {b.shape} differ in shape")
+        raise DatabaseError(
+            f"added mass {a.shape} and radiation damping {b.shape} differ in shape"
+        ).about("shape")
     return a + kramers_kronig(omega, b, tail=tail)
 
 
@@ -235,18 +239,22 @@ def _refuse_gap(w: Array, b: Array) -> None:
             f"the table begins at w = {w[0]:.4g} rad/s, {gap:.2g} times the peak frequency of the "
             f"radiation damping: K(t) would rest on a guess below it; compute lower frequencies "
             f"(or pass extrapolate=True)"
-        )
+        ).about("frequencies", "gap")
 
 
 def _table(omega: ArrayLike, values: ArrayLike) -> tuple[Array, Array, tuple[int, ...]]:
     w = np.asarray(omega, dtype=float)
     b = np.asarray(values, dtype=float)
     if w.ndim != 1 or b.shape[:1] != w.shape:
-        raise DatabaseError(f"{w.shape} frequencies do not fit a table of shape {b.shape}")
+        raise DatabaseError(f"{w.shape} frequencies do not fit a table of shape {b.shape}").about(
+            "shape"
+        )
     if w.size < 4 or w[0] <= 0.0 or not np.all(np.diff(w) > 0.0) or not np.isfinite(w[-1]):
-        raise DatabaseError("need at least 4 finite frequencies > 0 in ascending order [rad/s]")
+        raise DatabaseError(
+            "need at least 4 finite frequencies > 0 in ascending order [rad/s]"
+        ).about("frequencies")
     if not np.all(np.isfinite(b)):
-        raise DatabaseError("the table holds values that are not finite")
+        raise DatabaseError("the table holds values that are not finite").about("not_finite")
     return w, b.reshape(w.size, -1), b.shape[1:]
 
 

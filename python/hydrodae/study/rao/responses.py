@@ -197,7 +197,7 @@ def rao(
     """
     model = LinearModel.of(case, set)
     if not np.isfinite(heading):
-        raise CaseError(f"heading {heading:g}: expected a direction of travel")
+        raise CaseError(f"heading {heading:g}: expected a direction of travel", key="heading")
     chosen = model.response(_chosen(model, periods), heading)
     return Rao(
         model,
@@ -222,7 +222,7 @@ def _chosen(model: LinearModel, periods: Sequence[float] | None) -> Array:
         return np.asarray(2.0 * np.pi / inside[pick])
     values = np.asarray(periods, dtype=float)
     if values.ndim != 1 or values.size == 0 or not np.all(values > 0.0):
-        raise CaseError(f"periods {list(periods)}: expected numbers > 0 [s]")
+        raise CaseError(f"periods {list(periods)}: expected numbers > 0 [s]", key="periods")
     return np.asarray(2.0 * np.pi / values)
 
 

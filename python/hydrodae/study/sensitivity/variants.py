@@ -114,5 +114,5 @@ def _fourier(time: Array, values: Array, omega: Array) -> Complex:
 
 def _kept(database: HydroDatabase, keep: NDArray[np.bool_]) -> HydroDatabase:
     if keep.sum() < 4:
-        raise DatabaseError("fewer than 4 frequencies would be left")
+        raise DatabaseError("fewer than 4 frequencies would be left").about("frequencies")
     return database.at_frequencies(keep)

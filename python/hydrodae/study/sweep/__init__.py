@@ -65,7 +65,7 @@ def sweep(
         a file of another kind.
     """
     if jobs is not None and jobs < 1:
-        raise CaseError(f"jobs: runs at a time: expected at least 1, got {jobs}")
+        raise CaseError(f"jobs: runs at a time: expected at least 1, got {jobs}", key="jobs")
     plan = read_study(study)
     case = open_case(plan.case, set or {}, plan.rungs)
     target = claim(output)
