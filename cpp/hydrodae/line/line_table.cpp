@@ -4,6 +4,8 @@
 #include <cmath>
 #include <type_traits>
 
+#include "hydrodae/line/triples.h"
+
 #if defined(__x86_64__) && defined(__GNUC__)
 #define HYDRODAE_X86 1
 #endif
@@ -11,9 +13,6 @@
 namespace hydrodae::line {
 
 namespace {
-
-// Part of a function of each instruction set, so it must be inlined.
-#define HYDRODAE_PART [[gnu::always_inline]] inline
 
 /// Columns of LineTable::segments and LineTable::nodes.
 namespace seg {
@@ -61,35 +60,6 @@ enum {
   n
 };
 }
-
-/// A vector of plain numbers: Eigen's keep the compiler from combining nodes.
-template <class S> struct Triple {
-  S x, y, z;
-  HYDRODAE_PART friend Triple operator+(const Triple& a, const Triple& b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-  }
-  HYDRODAE_PART friend Triple operator-(const Triple& a, const Triple& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-  }
-  HYDRODAE_PART friend Triple operator*(const S& a, const Triple& b) {
-    return {a * b.x, a * b.y, a * b.z};
-  }
-  HYDRODAE_PART friend S dot(const Triple& a, const Triple& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-  }
-};
-
-/// Three arrays as one of vectors.
-template <class S> struct Triples {
-  S *x, *y, *z;
-  HYDRODAE_PART Triple<S> operator[](int i) const { return {x[i], y[i], z[i]}; }
-  HYDRODAE_PART void put(int i, const Triple<S>& v) const {
-    x[i] = v.x;
-    y[i] = v.y;
-    z[i] = v.z;
-  }
-  HYDRODAE_PART void clear(int i) const { x[i] = y[i] = z[i] = S(0); }
-};
 
 template <class S> HYDRODAE_PART Triples<S> triples(LineArrays<S>& arrays, int column) {
   return {arrays.column(column), arrays.column(column + 1), arrays.column(column + 2)};
