@@ -49,8 +49,12 @@ def _run(**values: object) -> hydrodae.Results:
 
 
 def test_a_cable_that_snaps_is_left_to_explicit_rk() -> None:
-    """radau takes the fall, and explicit_rk the snaps; both find the same motion."""
-    auto, tight = _run(), _run(method="radau", rtol=1e-7)
+    """radau takes the fall, and explicit_rk the snaps; both find the same motion.
+
+    At 1e-5: each snap magnifies errors. At 1e-4 tolerances that differ by 2 % leave the load 0.05
+    to 2 % of its way apart.
+    """
+    auto, tight = _run(rtol=1e-5), _run(method="radau", rtol=1e-7)
     methods = str(auto.statistics["methods"]).splitlines()
     assert methods[:2] == ["radau", "explicit_rk"]
     z = [run["bodies/load/position"].values[:, 2] for run in (auto, tight)]
