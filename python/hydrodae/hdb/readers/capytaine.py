@@ -114,7 +114,7 @@ def open_dataset(path: Path) -> xr.Dataset:
     try:
         return xr.open_dataset(path, engine=engine)
     except (OSError, ValueError, TypeError, LookupError, AttributeError) as error:
-        raise DatabaseError(f"not a readable netCDF file ({error})").about("format") from error
+        raise DatabaseError(f"not a readable netCDF file ({error})").about("damaged") from error
 
 
 def _headings(ds: xr.Dataset) -> Array:
