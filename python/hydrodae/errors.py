@@ -108,7 +108,9 @@ class DatabaseError(HydrodaeError, ValueError):
 
     def in_file(self, file: str | Path) -> Self:
         """Put a file in front of the message where it names none, and return the error."""
-        return self if self.file else self.about(self.reason, self.subject, file=file)
+        if not self.file:
+            self.about(self.reason, self.subject, file=file, line=self.line)
+        return self
 
     def within(self, place: str, more: str = "") -> Self:
         """Put a place, such as a body, in front of the message, and return the error."""

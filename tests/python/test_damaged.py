@@ -128,7 +128,7 @@ def test_a_report_that_is_no_number_is_refused(value: Any, database: Path) -> No
 @pytest.mark.parametrize("size", [2540, 30_000])
 def test_a_database_cut_off_is_refused(size: int, database: Path) -> None:
     database.write_bytes(database.read_bytes()[:size])
-    with refused("damaged"):
+    with refused("damaged", file="hydro.h5"):
         hdb.read(database)
 
 
@@ -149,5 +149,5 @@ def test_a_database_with_other_bytes_in_its_tables_is_refused(database: Path) ->
     data = bytearray(database.read_bytes())
     data[chunk.byte_offset : chunk.byte_offset + chunk.size] = bytes(chunk.size)
     database.write_bytes(data)
-    with refused("damaged"):
+    with refused("damaged", file="hydro.h5"):
         hdb.read(database)

@@ -36,6 +36,10 @@ _IMPACTS = "impacts/"
 _ACCURACY = "accuracy/"
 
 
+def _unreadable(path: Path, fault: str) -> ResultsError:
+    return ResultsError(f"{path}: {fault}")
+
+
 @dataclass(frozen=True)
 class MotionError:
     """Estimated error of the motion of a body or line, from a second run.
@@ -85,7 +89,7 @@ class Recording(Mapping[str, "xarray.DataArray"]):
             raise ResultsError(
                 f"{self.path}: is a case, or a study, and no results file: run it first"
             )
-        with opened(self.path, ResultsError, "not a readable results file", search=True) as file:
+        with opened(self.path, _unreadable, "not a readable results file", search=True) as file:
             self._read_header(file)
         self._identity = identity(self.path)
 
@@ -199,7 +203,7 @@ class Recording(Mapping[str, "xarray.DataArray"]):
 
         tables = {}
         for name in self._impacts:
-            with opened(self.path, ResultsError, f"impacts on {name} are damaged") as file:
+            with opened(self.path, _unreadable, f"impacts on {name} are damaged") as file:
                 values = real(file[_IMPACTS + name][:])
                 units = str(plain(file[_IMPACTS + name].attrs["unit"])).split(", ")
             if values.ndim != 2 or values.shape[1] not in (3, 4) or len(units) != values.shape[1]:
@@ -224,7 +228,7 @@ class Recording(Mapping[str, "xarray.DataArray"]):
         """
         found = {}
         for name in self._errors:
-            with opened(self.path, ResultsError, f"accuracy of {name} is damaged") as file:
+            with opened(self.path, _unreadable, f"accuracy of {name} is damaged") as file:
                 values = real(file[_ACCURACY + name][:])
                 attributes = {k: plain(v) for k, v in file[_ACCURACY + name].attrs.items()}
             if values.ndim != 2 or values.shape[1] != 3:
@@ -304,7 +308,7 @@ class Recording(Mapping[str, "xarray.DataArray"]):
                 f"{self.path}: the file has changed since it was opened; read it again"
             )
         damaged = f"channel {name} is damaged"
-        with opened(self.path, ResultsError, damaged) as file:
+        with opened(self.path, _unreadable, damaged) as file:
             values = real(file[name][: len(self._time)])
             attributes = {
                 key: plain(value)

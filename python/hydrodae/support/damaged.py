@@ -49,7 +49,7 @@ def _sound(objects: bytes) -> bool:
 
 @contextmanager
 def opened(
-    path: Path, error: Callable[[str], HydrodaeError], what: str, *, search: bool = False
+    path: Path, error: Callable[[Path, str], HydrodaeError], what: str, *, search: bool = False
 ) -> Iterator[h5py.File]:
     """Open an HDF5 file for reading.
 
@@ -58,15 +58,16 @@ def opened(
     path : Path
         An existing file.
     error : callable
-        Makes of a message what is raised for everything that its contents make impossible: it is
-        cut off, bytes have changed, a dataset has another shape or type, something is missing.
+        Makes of the path and a text what is raised for everything that its contents make
+        impossible: it is cut off, bytes have changed, a dataset has another shape or type,
+        something is missing.
     what : str
         Said of the file then, for example "not a readable results file".
     search : bool
         Search it for what the HDF5 library would read for ever.
     """
     if search and (at := _damaged_texts(path)) is not None:
-        raise error(f"{path}: {what}: a collection of texts at byte {at} is damaged")
+        raise error(path, f"{what}: a collection of texts at byte {at} is damaged")
     try:
         with h5py.File(path, "r") as file:
             yield file
@@ -78,4 +79,4 @@ def opened(
     ) as cause:
         # str() of a KeyError is its text in quotes
         text = cause.args[0] if isinstance(cause, KeyError) and cause.args else cause
-        raise error(f"{path}: {what}: {text or type(cause).__name__}") from cause
+        raise error(path, f"{what}: {text or type(cause).__name__}") from cause

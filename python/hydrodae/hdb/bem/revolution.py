@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.support.arrays import Array
+from hydrodae.support.naming import names_file
 
 
 def cone(
@@ -132,6 +133,7 @@ def revolution(size: float, profile: ArrayLike) -> Array:
     return revolved(line[:, 0], line[:, 1], size)
 
 
+@names_file
 def read_profile(path: str | Path) -> Array:
     """Read points r, z [m] of a meridian: two numbers a line, `#` begins a comment.
 
@@ -142,7 +144,7 @@ def read_profile(path: str | Path) -> Array:
     """
     file = Path(path)
     if not file.is_file():
-        raise DatabaseError("no such file of a profile").about("missing", file=file)
+        raise DatabaseError("no such file of a profile").about("missing")
     rows = []
     for number, line in enumerate(file.read_text(errors="replace").splitlines(), start=1):
         words = line.split("#")[0].replace(",", " ").replace(";", " ").split()
@@ -152,12 +154,12 @@ def read_profile(path: str | Path) -> Array:
             r, z = (float(word) for word in words)
         except ValueError:
             raise DatabaseError(f"expected two numbers r z, got {line!r}").about(
-                "format", file=file, line=number
+                "format", line=number
             ) from None
         rows.append((r, z))
     if len(rows) < 2:
         raise DatabaseError(f"{len(rows)} points; expected at least two, r z in a line").about(
-            "shape", file=file
+            "shape"
         )
     return np.array(rows)
 

@@ -52,9 +52,9 @@ DAMAGED = "incomplete or damaged"
 ROOT_TEXT = ("source", "source_sha256", "generator", "title")
 
 
-def damaged(text: str) -> DatabaseError:
-    """Return the error of a file that the HDF5 library cannot read; it is to name the file."""
-    return DatabaseError(text).about("damaged")
+def damaged(path: Path, fault: str) -> DatabaseError:
+    """Return the error about a file that the HDF5 library cannot read."""
+    return DatabaseError(fault).about("damaged", file=path)
 
 
 def is_hydro_file(path: Path) -> bool:

@@ -27,6 +27,7 @@ from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.readers.text import number, read_lines
 from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.support.arrays import Array
+from hydrodae.support.naming import names_file
 
 
 def aqwa_file(path: Path) -> Path | None:
@@ -45,13 +46,14 @@ def aqwa_file(path: Path) -> Path | None:
         found = [p for p in sorted(path.iterdir()) if p.suffix.lower() == suffix]
         if len(found) > 1:
             raise DatabaseError(f"which one is meant? {', '.join(p.name for p in found)}").about(
-                "ambiguous", file=path
+                "ambiguous"
             )
         if found:
             return found[0]
     return None
 
 
+@names_file
 def read_aqwa(path: Path) -> SourceData:
     """Read an `.AH1` file, or a `.LIS` listing.
 
@@ -94,9 +96,7 @@ class _Ah1:
             return [number(word) for word in line.split()]
         except ValueError:
             wrong = next(word for word in line.split() if not _is_number(word))
-            raise DatabaseError(f"{wrong!r} is not a number").about(
-                "format", file=self.path, line=count
-            ) from None
+            raise DatabaseError(f"{wrong!r} is not a number").about("format", line=count) from None
 
     def _header(self) -> None:
         """Structures, headings [deg] and frequencies [rad/s]; equal for all structures."""
@@ -109,13 +109,13 @@ class _Ah1:
                     f"its head, before the first section: expected the number of a "
                     f"structure ({len(grids) + 1}), of directions and of frequencies, got "
                     f"{' '.join(f'{v:g}' for v in values[:3])}"
-                ).about("format", file=self.path)
+                ).about("format")
             nh, nw = count
             headings.append(values[3 : 3 + nh])
             grids.append(values[3 + nh : 3 + nh + nw])
             if len(grids[-1]) != nw:
                 raise DatabaseError(f"its head is cut short: {nw} frequencies stated").about(
-                    "cut_short", file=self.path
+                    "cut_short"
                 )
             values = values[3 + nh + nw :]
         if (
@@ -124,7 +124,7 @@ class _Ah1:
             or any(h != headings[0] for h in headings)
         ):
             raise DatabaseError("structures with different frequencies or headings").about(
-                "conflict", file=self.path
+                "conflict"
             )
         self.count = len(grids)
         self.omega, self.heading_deg = np.array(grids[0]), np.array(headings[0])
@@ -132,13 +132,13 @@ class _Ah1:
     def block(self, word: str, counts: tuple[int, ...], width: int) -> Array:
         """Numbers of a section, (entries, width); each entry begins with its indices from 1."""
         if word not in self.sections:
-            raise DatabaseError(f"no section {word}").about("missing", word, file=self.path)
+            raise DatabaseError(f"no section {word}").about("missing", word)
         line, values = self.sections[word]
         entries, length = int(np.prod(counts)), len(counts) + width
         if len(values) != entries * length:
             raise DatabaseError(
                 f"section {word} holds {len(values)} numbers, expected {entries * length}"
-            ).about("shape", word, file=self.path, line=line)
+            ).about("shape", word, line=line)
         table = np.array(values).reshape(entries, length)
         indices = np.indices(counts).reshape(len(counts), -1).T + 1
         wrong = np.flatnonzero((table[:, : len(counts)] != indices).any(axis=1))
@@ -150,7 +150,7 @@ class _Ah1:
             raise DatabaseError(
                 f"section {word}: entry {wrong[0] + 1} begins with {found}, "
                 f"expected {expected}: lines are missing, twice or in another order"
-            ).about("order", word, file=self.path, line=line)
+            ).about("order", word, line=line)
         return table[:, len(counts) :]
 
     def matrices(self, word: str) -> Array:
@@ -163,7 +163,7 @@ class _Ah1:
         """Put the sections together."""
         n, nw, nh = self.count, self.omega.size, self.heading_deg.size
         depth, rho, gravity = self.block("GENERAL", (n,), 5)[0, :3]
-        unit = unit_of_mass(self.path, rho, gravity)
+        unit = unit_of_mass(rho, gravity)
         centers = list(self.block("COG", (n,), 3))
         force = self.block("FORCERAO", (n, nh, nw), 12).reshape(n, nh, nw, 2, 6)
         turned = force[:, :, :, 0] * np.exp(-1j * np.radians(force[:, :, :, 1]))

@@ -15,7 +15,7 @@ from hydrodae.hdb.readers.source import SourceData
 from hydrodae.support.arrays import Array, Complex
 
 
-def unit_of_mass(path: Path, rho: float, gravity: float) -> float:
+def unit_of_mass(rho: float, gravity: float) -> float:
     """Kilograms in the unit of mass of a file: AQWA works in kg, m, N or in t, m, kN.
 
     Raises
@@ -31,7 +31,7 @@ def unit_of_mass(path: Path, rho: float, gravity: float) -> float:
     raise DatabaseError(
         f"density {rho:g} and gravity {gravity:g}: neither kg, m, N nor t, m, kN; choose "
         f"metric units in AQWA"
-    ).about("units", "density", file=path)
+    ).about("units", "density")
 
 
 def structure_names(path: Path, count: int) -> list[str]:

@@ -28,6 +28,7 @@ from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.readers.text import NUMBER, number, read_text
 from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.support.arrays import Array, Complex
+from hydrodae.support.naming import names_file
 
 #: What AQWA writes last, and within how many lines of the end.
 _END, END_LINES = re.compile(r"FINISH\s+(DATE|TIME)|Total elapsed time", re.IGNORECASE), 60
@@ -46,6 +47,7 @@ _STATED = {
 }
 
 
+@names_file
 def read_listing(path: Path) -> SourceData:
     """Read a listing.
 
@@ -57,23 +59,21 @@ def read_listing(path: Path) -> SourceData:
     lines = read_text(path).expandtabs(2).splitlines()
     pages = pages_of_structures(lines)
     if not pages:
-        raise DatabaseError("no page FOR STRUCTURE n in it").about("missing", file=path)
+        raise DatabaseError("no page FOR STRUCTURE n in it").about("missing")
     structures = sorted(pages)
-    water = [_stated(path, lines, _STATED[key]) for key in ("rho", "gravity", "depth")]
-    unit = unit_of_mass(path, water[0], water[1])
-    centers = [_center(path, pages[s]) for s in structures]
-    forces = {
-        key: [_forces(path, pages[s], title) for s in structures] for key, title in _FORCES.items()
-    }
+    water = [_stated(lines, _STATED[key]) for key in ("rho", "gravity", "depth")]
+    unit = unit_of_mass(water[0], water[1])
+    centers = [_center(pages[s]) for s in structures]
+    forces = {key: [_forces(pages[s], title) for s in structures] for key, title in _FORCES.items()}
     asked = sorted({w for rows in forces["diffraction"] for w, _ in rows})
-    omega, a, b, a_inf, coupled = read_radiation(path, pages, asked)
+    omega, a, b, a_inf, coupled = read_radiation(pages, asked)
     tables: dict[str, Complex] = {}
     headings_deg = np.zeros(0)
     for key, title in _FORCES.items():
-        parts = [_force_table(path, title, rows, omega) for rows in forces[key]]
+        parts = [_force_table(title, rows, omega) for rows in forces[key]]
         if any(not np.array_equal(h, parts[0][1]) for _, h in parts):
             raise DatabaseError(f"{title}: structures with different directions").about(
-                "conflict", "headings", file=path
+                "conflict", "headings"
             )
         tables[key] = np.concatenate([unit * table for table, _ in parts], axis=2)
         headings_deg = parts[0][1]
@@ -94,9 +94,9 @@ def read_listing(path: Path) -> SourceData:
     data.froude_krylov = to_world(tables["froude_krylov"][:, kept], k, heading, centers)
     data.diffraction = to_world(tables["diffraction"][:, kept], k, heading, centers)
     for name, s, center in zip(data.reference_points, structures, centers, strict=True):
-        own = {key: _stated(path, pages[s], _STATED[key]) for key in ("volume", "bx", "by", "bz")}
+        own = {key: _stated(pages[s], _STATED[key]) for key in ("volume", "bx", "by", "bz")}
         buoyancy = np.array([own["bx"], own["by"], own["bz"]])
-        stiffness = unit * _stiffness(path, pages[s])
+        stiffness = unit * _stiffness(pages[s])
         statics = Hydrostatics.from_stiffness(
             stiffness, center, own["volume"], buoyancy, data.rho, data.gravity
         )
@@ -104,35 +104,35 @@ def read_listing(path: Path) -> SourceData:
     return data
 
 
-def _stated(path: Path, lines: list[str], pattern: str) -> float:
+def _stated(lines: list[str], pattern: str) -> float:
     for line in lines:
         found = re.search(f"{pattern}({NUMBER})", line)
         if found:
             return number(found[1])
     words = re.sub(r"\\s[+*]?|\[ \.\]\*|=", " ", pattern).split()
     raise DatabaseError(f"no line {' '.join(words)!r} with a number").about(
-        "missing", " ".join(words), file=path
+        "missing", " ".join(words)
     )
 
 
-def _center(path: Path, lines: list[str]) -> Array:
+def _center(lines: list[str]) -> Array:
     for line in lines:
         found = re.search(rf"GX=\s*({NUMBER})\s+GY=\s*({NUMBER})\s+GZ=\s*({NUMBER})", line)
         if found:
             return np.array([number(v) for v in found.groups()])
     raise DatabaseError("no line 'STRUCTURE C.O.G. GX= GY= GZ='").about(
-        "missing", "STRUCTURE C.O.G.", file=path
+        "missing", "STRUCTURE C.O.G."
     )
 
 
-def _stiffness(path: Path, lines: list[str]) -> Array:
+def _stiffness(lines: list[str]) -> Array:
     for at, line in enumerate(lines):
         if line.strip() == "STIFFNESS MATRIX":
-            return read_matrix(path, lines, at)
-    raise DatabaseError("no STIFFNESS MATRIX").about("missing", "STIFFNESS MATRIX", file=path)
+            return read_matrix(lines, at)
+    raise DatabaseError("no STIFFNESS MATRIX").about("missing", "STIFFNESS MATRIX")
 
 
-def _forces(path: Path, lines: list[str], title: str) -> dict[tuple[float, float], Complex]:
+def _forces(lines: list[str], title: str) -> dict[tuple[float, float], Complex]:
     """Six forces with the phase zero at the centre of gravity, by frequency and heading [deg]."""
     rows: dict[tuple[float, float], Complex] = {}
     starts = [at for at, line in enumerate(lines) if line.strip() == title]
@@ -147,21 +147,19 @@ def _forces(path: Path, lines: list[str], title: str) -> dict[tuple[float, float
             try:
                 values = np.array([number(word) for word in words])
             except ValueError:
-                raise DatabaseError("expected numbers").about(
-                    "format", file=path, line=at + 1
-                ) from None
+                raise DatabaseError("expected numbers").about("format", line=at + 1) from None
             if values.size == 15:
                 direction = values[2]
             pairs = values[-12:]
             force = pairs[0::2] * np.exp(-1j * np.radians(pairs[1::2]))
             rows[float(values[1]), float(direction)] = force
     if not rows:
-        raise DatabaseError(f"no table {title!r}").about("missing", title, file=path)
+        raise DatabaseError(f"no table {title!r}").about("missing", title)
     return rows
 
 
 def _force_table(
-    path: Path, title: str, rows: dict[tuple[float, float], Complex], omega: Array
+    title: str, rows: dict[tuple[float, float], Complex], omega: Array
 ) -> tuple[Complex, Array]:
     """Forces (nw, nh, 6) at the frequencies of the radiation tables, and headings [deg]."""
     headings = np.array(sorted({h for _, h in rows}))
@@ -172,7 +170,7 @@ def _force_table(
         for j, h in enumerate(headings):
             if abs(near - w) > 1e-3 * max(w, 1.0) or (near, float(h)) not in rows:
                 raise DatabaseError(f"{title}: no row at {w:g} rad/s and {h:g} degrees").about(
-                    "missing", title, file=path
+                    "missing", title
                 )
             table[i, j] = rows[near, float(h)]
     return table, headings

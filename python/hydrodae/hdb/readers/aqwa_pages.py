@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
 
 import numpy as np
 
@@ -31,7 +30,7 @@ def pages_of_structures(lines: list[str]) -> dict[int, list[str]]:
     return pages
 
 
-def read_matrix(path: Path, lines: list[str], start: int) -> Array:
+def read_matrix(lines: list[str], start: int) -> Array:
     """Six rows `X`, `Y`, `Z`, `RX`, `RY`, `RZ` of six numbers after line `start` (from 0).
 
     Raises
@@ -49,18 +48,16 @@ def read_matrix(path: Path, lines: list[str], start: int) -> Array:
         try:
             rows.append([number(word) for word in words[1:7]])
         except ValueError:
-            raise DatabaseError("expected six numbers").about(
-                "format", file=path, line=at + 1
-            ) from None
+            raise DatabaseError("expected six numbers").about("format", line=at + 1) from None
         if len(rows[-1]) != 6:
-            raise DatabaseError("expected six numbers").about("format", file=path, line=at + 1)
+            raise DatabaseError("expected six numbers").about("format", line=at + 1)
         if len(rows) == 6:
             return np.array(rows)
-    raise DatabaseError("no matrix of 6 rows follows").about("shape", file=path, line=start + 1)
+    raise DatabaseError("no matrix of 6 rows follows").about("shape", line=start + 1)
 
 
 def read_radiation(
-    path: Path, pages: dict[int, list[str]], asked: list[float]
+    pages: dict[int, list[str]], asked: list[float]
 ) -> tuple[Array, Array, Array, Array | None, bool]:
     """Read the tables of all structures.
 
@@ -90,7 +87,7 @@ def read_radiation(
     numbers = sorted(pages)
     found: dict[float, dict[tuple[str, int, int], Array]] = {}
     for moving in numbers:
-        _of_structure(path, pages[moving], moving, found)
+        _of_structure(pages[moving], moving, found)
     coupled = len(numbers) == 1 or any(
         force != moving for tables in found.values() for _, force, moving in tables
     )
@@ -99,7 +96,7 @@ def read_radiation(
     usual = sorted(w for w in found if np.abs(grid - w).min() < 1e-3 * max(w, 1.0))
     usual = [w for w in usual if w < HIGH and any(what == "DAMPING" for what, _, _ in found[w])]
     if not usual:
-        raise DatabaseError("no tables of added mass and damping").about("missing", file=path)
+        raise DatabaseError("no tables of added mass and damping").about("missing")
     for w in usual:
         for what in ("ADDED MASS", "DAMPING"):
             for force, moving in pairs:
@@ -107,7 +104,7 @@ def read_radiation(
                     raise DatabaseError(
                         f"no table of {what.lower()}, force on structure {force} by "
                         f"motion of {moving}, at {w:g} rad/s"
-                    ).about("missing", what, file=path)
+                    ).about("missing", what)
     a = np.array([_whole(found[w], "ADDED MASS", numbers, pairs) for w in usual])
     b = np.array([_whole(found[w], "DAMPING", numbers, pairs) for w in usual])
     high = found.get(HIGH, {})
@@ -117,7 +114,7 @@ def read_radiation(
 
 
 def _of_structure(
-    path: Path, lines: list[str], moving: int, found: dict[float, dict[tuple[str, int, int], Array]]
+    lines: list[str], moving: int, found: dict[float, dict[tuple[str, int, int], Array]]
 ) -> None:
     omega = None
     for at, line in enumerate(lines):
@@ -131,7 +128,7 @@ def _of_structure(
             continue
         force = int(title[2]) if title[2] else moving
         key = (title[1], force, moving)
-        found.setdefault(omega, {})[key] = read_matrix(path, lines, at)
+        found.setdefault(omega, {})[key] = read_matrix(lines, at)
 
 
 def _whole(

@@ -22,6 +22,7 @@ from hydrodae.hdb.labels import six_of_each
 from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
 from hydrodae.support.arrays import Array
 from hydrodae.support.damaged import opened
+from hydrodae.support.naming import names_file
 
 #: Codes whose A_inf is an estimate of BEMIO: the mean over the lower part of its own grid.
 ESTIMATED_BY_BEMIO = ("NEMOH", "CAPYTAINE")
@@ -32,6 +33,7 @@ def is_bemio_file(f: h5py.File) -> bool:
     return "simulation_parameters" in f and "body1" in f
 
 
+@names_file
 def read_bemio(path: Path) -> SourceData:
     """Read a BEMIO file.
 
@@ -50,18 +52,18 @@ def read_bemio(path: Path) -> SourceData:
 
 
 def _read(path: Path, f: h5py.File) -> SourceData:
-    rho, gravity = _number(path, f, "rho"), _number(path, f, "g")
-    omega = _array(path, f, "simulation_parameters/w").ravel()
-    heading = np.radians(_array(path, f, "simulation_parameters/wave_dir").ravel())
-    scaled = _number(path, f, "scaled") != 0.0
-    groups = [f[name] for name in _bodies(path, f)]
+    rho, gravity = _number(f, "rho"), _number(f, "g")
+    omega = _array(f, "simulation_parameters/w").ravel()
+    heading = np.radians(_array(f, "simulation_parameters/wave_dir").ravel())
+    scaled = _number(f, "scaled") != 0.0
+    groups = [f[name] for name in _bodies(f)]
     findings: list[Finding] = []
     counts = [int(_dof(g)) for g in groups]
     for g, n in zip(groups, counts, strict=True):
         if n < 6:
             raise DatabaseError(
                 f"{g.name}/properties/dof is {n}; expected 6 or more, the rigid ones first"
-            ).about("shape", "dof", file=path)
+            ).about("shape", "dof")
     starts = np.r_[0, np.cumsum(counts)]
     kept = np.concatenate([start + np.arange(6) for start in starts[:-1]])
     if any(n > 6 for n in counts):
@@ -73,14 +75,14 @@ def _read(path: Path, f: h5py.File) -> SourceData:
     forces: dict[str, list[Array]] = {"": [], "froude-krylov/": [], "scattering/": []}
     for g, count in zip(groups, counts, strict=True):
         full = (count, int(starts[-1]), omega.size)
-        a.append(_table(path, g, "added_mass/all", full)[:6, kept])
-        b.append(_table(path, g, "radiation_damping/all", full)[:6, kept])
-        a_inf.append(_table(path, g, "added_mass/inf_freq", full[:2])[:6, kept])
+        a.append(_table(g, "added_mass/all", full)[:6, kept])
+        b.append(_table(g, "radiation_damping/all", full)[:6, kept])
+        a_inf.append(_table(g, "added_mass/inf_freq", full[:2])[:6, kept])
         for key, found in forces.items():
             if f"hydro_coeffs/excitation/{key}re" not in g:
                 continue
             parts = [
-                _table(path, g, f"excitation/{key}{p}", (count, heading.size, omega.size))[:6]
+                _table(g, f"excitation/{key}{p}", (count, heading.size, omega.size))[:6]
                 for p in ("re", "im")
             ]
             found.append(parts[0] + 1j * parts[1])
@@ -100,7 +102,7 @@ def _read(path: Path, f: h5py.File) -> SourceData:
         reference_points={},
         rho=rho,
         gravity=gravity,
-        water_depth=_depth(path, f),
+        water_depth=_depth(f),
         name=path.name,
         title=f"BEMIO file {path.name}, computed by {code}",
         added_mass_inf=_added_mass_inf(factor * np.concatenate(a_inf), code, findings),
@@ -120,17 +122,17 @@ def _read(path: Path, f: h5py.File) -> SourceData:
             # BEMIO fills what the code behind it did not give with NaN
             setattr(data, field, None if np.isnan(value).all() else value)
     for name, g in zip(names, groups, strict=True):
-        _attach_body(path, data, name, g, 1.0 if scaled else rho * gravity)
+        _attach_body(data, name, g, 1.0 if scaled else rho * gravity)
     return data
 
 
-def _bodies(path: Path, f: h5py.File) -> list[str]:
+def _bodies(f: h5py.File) -> list[str]:
     found = sorted(
         (n for n in f if n.startswith("body") and n[4:].isdigit()), key=lambda n: int(n[4:])
     )
     if found != [f"body{i + 1}" for i in range(len(found))]:
         raise DatabaseError(f"expected groups body1, body2, ..., got {found}").about(
-            "label", "bodies", file=path
+            "label", "bodies"
         )
     return found
 
@@ -146,17 +148,17 @@ def _added_mass_inf(value: Array, code: str, findings: list[Finding]) -> Array |
     return value
 
 
-def _attach_body(path: Path, data: SourceData, name: str, g: h5py.Group, scale: float) -> None:
-    point = _vector(path, g, "properties/cg")
+def _attach_body(data: SourceData, name: str, g: h5py.Group, scale: float) -> None:
+    point = _vector(g, "properties/cg")
     data.reference_points[name] = point
-    buoyancy = _vector(path, g, "properties/cb")
+    buoyancy = _vector(g, "properties/cb")
     volume = g["properties/disp_vol"][()].ravel() if "properties/disp_vol" in g else []
     stiffness = "hydro_coeffs/linear_restoring_stiffness"
     if point is None or buoyancy is None or len(volume) != 1 or stiffness not in g:
         text = f"{name}: cg, cb, disp_vol or linear_restoring_stiffness is missing"
         data.findings.append(without_hydrostatics(text, [name]))
         return
-    k = scale * _array(path, g, stiffness)[:6, :6]
+    k = scale * _array(g, stiffness)[:6, :6]
     if not np.all(np.isfinite(k)) or not np.isfinite(volume[0]):
         data.findings.append(without_hydrostatics(f"{name}: holds NaN; left out", [name]))
         return
@@ -170,7 +172,7 @@ def _dof(g: h5py.Group) -> float:
     return float(g["properties/dof"][()].ravel()[0]) if "properties/dof" in g else 6.0
 
 
-def _depth(path: Path, f: h5py.File) -> float:
+def _depth(f: h5py.File) -> float:
     """Water depth; a text ("infinite") stands for deep water."""
     name = "simulation_parameters/water_depth"
     value = f[name][()] if name in f else None
@@ -178,46 +180,44 @@ def _depth(path: Path, f: h5py.File) -> float:
         if _text(value).strip().lower().startswith("inf"):
             return np.inf
         raise DatabaseError(f"water_depth {_text(value)!r}: expected metres or 'infinite'").about(
-            "value", "depth", file=path
+            "value", "depth"
         )
-    return _number(path, f, "water_depth")
+    return _number(f, "water_depth")
 
 
-def _number(path: Path, f: h5py.File, name: str) -> float:
-    value = _array(path, f, f"simulation_parameters/{name}")
+def _number(f: h5py.File, name: str) -> float:
+    value = _array(f, f"simulation_parameters/{name}")
     if value.size != 1:
         raise DatabaseError(f"simulation_parameters/{name}: expected one number").about(
-            "format", name, file=path
+            "format", name
         )
     return float(value.ravel()[0])
 
 
-def _array(path: Path, group: h5py.Group, name: str) -> Array:
+def _array(group: h5py.Group, name: str) -> Array:
     if name not in group:
-        raise DatabaseError(f"no dataset {group.name.rstrip('/')}/{name}").about(
-            "missing", name, file=path
-        )
+        raise DatabaseError(f"no dataset {group.name.rstrip('/')}/{name}").about("missing", name)
     try:
         return np.asarray(group[name][()], dtype=float)
     except (TypeError, ValueError) as error:
         raise DatabaseError(f"{group.name}/{name} does not hold numbers").about(
-            "format", name, file=path
+            "format", name
         ) from error
 
 
-def _table(path: Path, group: h5py.Group, name: str, shape: tuple[int, ...]) -> Array:
-    value = _array(path, group, f"hydro_coeffs/{name}")
+def _table(group: h5py.Group, name: str, shape: tuple[int, ...]) -> Array:
+    value = _array(group, f"hydro_coeffs/{name}")
     if value.shape != shape:
         raise DatabaseError(
             f"{group.name}/hydro_coeffs/{name} has shape {value.shape}, expected {shape}"
-        ).about("shape", name, file=path)
+        ).about("shape", name)
     return value
 
 
-def _vector(path: Path, group: h5py.Group, name: str) -> Array | None:
+def _vector(group: h5py.Group, name: str) -> Array | None:
     if name not in group:
         return None
-    value = _array(path, group, name).ravel()
+    value = _array(group, name).ravel()
     return value if value.shape == (3,) and np.all(np.isfinite(value)) else None
 
 

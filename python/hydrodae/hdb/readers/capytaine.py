@@ -23,6 +23,7 @@ from hydrodae.hdb.readers.capytaine_statics import attach_bodies, text
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.relations.dispersion import frequency
 from hydrodae.support.arrays import Array, Complex
+from hydrodae.support.naming import names_file
 
 FREQUENCY_AXES = ("omega", "period", "freq", "wavenumber", "wavelength")
 FORCES = {
@@ -32,6 +33,7 @@ FORCES = {
 }
 
 
+@names_file
 def read_capytaine(path: Path) -> SourceData:
     """Read a netCDF file of Capytaine (NETCDF3 or NETCDF4).
 
@@ -51,26 +53,26 @@ def read_capytaine(path: Path) -> SourceData:
         Not such a file, something missing, or dimensions that cannot be one database.
     """
     with open_dataset(path) as opened:
-        ds = _one_case(path, opened.load())
+        ds = _one_case(opened.load())
     for name in ("added_mass", "radiation_damping"):
         if name not in ds:
-            raise DatabaseError(f"no variable {name!r} in it").about("missing", name, file=path)
-    ds, omega = _frequencies(path, ds)
+            raise DatabaseError(f"no variable {name!r} in it").about("missing", name)
+    ds, omega = _frequencies(ds)
     if np.any(np.isnan(omega) | (omega < 0.0)):
         at = int(np.flatnonzero(np.isnan(omega) | (omega < 0.0))[0])
         raise DatabaseError(f"frequency {at + 1} is {omega[at]:g} rad/s; expected all >= 0").about(
-            "frequencies", file=path
+            "frequencies"
         )
     findings: list[Finding] = []
     raw, coordinates = _coordinates(path, ds, findings)
-    a = _matrix(path, ds, "added_mass", raw)
-    b = _matrix(path, ds, "radiation_damping", raw)
+    a = _matrix(ds, "added_mass", raw)
+    b = _matrix(ds, "radiation_damping", raw)
     usual = np.isfinite(omega) & (omega > 0.0)
     order = np.flatnonzero(usual)[np.argsort(omega[usual])]
-    forces = {key: _force(path, ds, name, raw, order) for key, name in FORCES.items()}
+    forces = {key: _force(ds, name, raw, order) for key, name in FORCES.items()}
     heading = np.zeros(0)
     if any(v is not None for v in forces.values()):
-        heading = _headings(path, ds)
+        heading = _headings(ds)
     if np.any(omega == 0.0):
         findings.append(Finding("info", "w = 0", "row at zero frequency set aside"))
     at_infinity = a[np.isinf(omega)]
@@ -85,9 +87,9 @@ def read_capytaine(path: Path) -> SourceData:
         diffraction=forces["diffraction"],
         excitation=forces["excitation"],
         reference_points={},
-        rho=_number(path, ds, "rho"),
-        gravity=_number(path, ds, "g"),
-        water_depth=_depth(path, ds),
+        rho=_number(ds, "rho"),
+        gravity=_number(ds, "g"),
+        water_depth=_depth(ds),
         name=path.name,
         title=f"Capytaine {ds.attrs.get('capytaine_version', '?')}, {path.name}",
         added_mass_inf=a_inf,
@@ -112,23 +114,21 @@ def open_dataset(path: Path) -> xr.Dataset:
     try:
         return xr.open_dataset(path, engine=engine)
     except (OSError, ValueError, TypeError, LookupError, AttributeError) as error:
-        raise DatabaseError(f"not a readable netCDF file ({error})").about(
-            "format", file=path
-        ) from error
+        raise DatabaseError(f"not a readable netCDF file ({error})").about("damaged") from error
 
 
-def _headings(path: Path, ds: xr.Dataset) -> Array:
+def _headings(ds: xr.Dataset) -> Array:
     """Directions of travel, which Capytaine writes in radians."""
     heading = np.atleast_1d(ds["wave_direction"].values).astype(float)
     if np.abs(heading).max() > 2.0 * np.pi + 1e-6:
         raise DatabaseError(
             f"wave_direction {np.abs(heading).max():g}: expected radians, at most 2 pi; "
             f"are these degrees?"
-        ).about("units", "wave_direction", file=path)
+        ).about("units", "wave_direction")
     return heading
 
 
-def _one_case(path: Path, ds: xr.Dataset) -> xr.Dataset:
+def _one_case(ds: xr.Dataset) -> xr.Dataset:
     """Drop dimensions of length one that parametrise a study; refuse longer ones."""
     known = {"influenced_dof", "radiating_dof", "complex", "wave_direction", *FREQUENCY_AXES}
     for name in ds["added_mass"].dims if "added_mass" in ds else ():
@@ -138,24 +138,24 @@ def _one_case(path: Path, ds: xr.Dataset) -> xr.Dataset:
             raise DatabaseError(
                 f"{ds.sizes[name]} values of {name!r}; select one before exporting "
                 f"(dataset.isel({name}=0))"
-            ).about("ambiguous", str(name), file=path)
+            ).about("ambiguous", str(name))
         ds = ds.isel({name: 0})
     speed = float(np.max(np.abs(ds["forward_speed"].values))) if "forward_speed" in ds else 0.0
     if speed > 0.0:
         raise DatabaseError(
             f"forward_speed {speed:g} m/s: only tables of bodies without forward speed "
             f"are supported"
-        ).about("unsupported", "forward_speed", file=path)
+        ).about("unsupported", "forward_speed")
     return ds
 
 
-def _frequencies(path: Path, ds: xr.Dataset) -> tuple[xr.Dataset, Array]:
+def _frequencies(ds: xr.Dataset) -> tuple[xr.Dataset, Array]:
     """Rename the frequency dimension to `omega` and return its values [rad/s]."""
     axes = [d for d in ds["added_mass"].dims if d in FREQUENCY_AXES]
     if not axes:
         if "omega" not in ds.coords:
             raise DatabaseError(f"no frequency dimension ({', '.join(FREQUENCY_AXES)})").about(
-                "missing", "frequency", file=path
+                "missing", "frequency"
             )
         return ds.expand_dims("omega"), np.atleast_1d(ds["omega"].values).astype(float)
     axis = str(axes[0])
@@ -164,19 +164,19 @@ def _frequencies(path: Path, ds: xr.Dataset) -> tuple[xr.Dataset, Array]:
     else:
         given = np.atleast_1d(ds[axis].values).astype(float)
         with np.errstate(divide="ignore"):
-            values = _to_omega(path, ds, axis, given)
+            values = _to_omega(ds, axis, given)
     if axis != "omega":
         ds = ds.drop_vars("omega", errors="ignore").rename({axis: "omega"})
     return ds, values
 
 
-def _to_omega(path: Path, ds: xr.Dataset, axis: str, given: Array) -> Array:
+def _to_omega(ds: xr.Dataset, axis: str, given: Array) -> Array:
     if axis == "period":
         return 2.0 * np.pi / given
     if axis == "freq":
         return 2.0 * np.pi * given
     k = given if axis == "wavenumber" else 2.0 * np.pi / given
-    return frequency(k, _depth(path, ds), _number(path, ds, "g"))
+    return frequency(k, _depth(ds), _number(ds, "g"))
 
 
 def _coordinates(
@@ -190,7 +190,7 @@ def _coordinates(
     rigid = [d for d in both if d.rpartition("__")[2].lower() in DOFS]
     lost = [d for d in dict.fromkeys(influenced + radiating) if d not in rigid]
     if not rigid:
-        raise DatabaseError(f"none of {both} is one of {', '.join(DOFS)}").about("label", file=path)
+        raise DatabaseError(f"none of {both} is one of {', '.join(DOFS)}").about("label")
     if lost:
         findings.append(
             Finding(
@@ -213,21 +213,19 @@ def _single_body(path: Path, ds: xr.Dataset) -> str:
     return path.stem
 
 
-def _matrix(path: Path, ds: xr.Dataset, name: str, dofs: list[str]) -> Array:
+def _matrix(ds: xr.Dataset, name: str, dofs: list[str]) -> Array:
     """Return a variable as (nw, force, motion)."""
     variable = ds[name].sel(influenced_dof=dofs, radiating_dof=dofs)
     try:
         ordered = variable.transpose("omega", "influenced_dof", "radiating_dof")
     except ValueError as error:
         raise DatabaseError(f"dimensions of {name!r}: {variable.dims}").about(
-            "shape", name, file=path
+            "shape", name
         ) from error
     return np.asarray(ordered.values, dtype=float)
 
 
-def _force(
-    path: Path, ds: xr.Dataset, name: str, dofs: list[str], order: NDArray[np.intp]
-) -> Complex | None:
+def _force(ds: xr.Dataset, name: str, dofs: list[str], order: NDArray[np.intp]) -> Complex | None:
     """Return a force as (nw, nh, n) in the project convention."""
     if name not in ds:
         return None
@@ -236,7 +234,7 @@ def _force(
         labels = [text(c) for c in variable["complex"].values]
         if sorted(labels) != ["im", "re"]:
             raise DatabaseError(f"dimension 'complex' of {name!r} is labelled {labels}").about(
-                "format", name, file=path
+                "format", name
             )
         variable = variable.assign_coords(complex=labels)
         variable = variable.sel(complex="re") + 1j * variable.sel(complex="im")
@@ -246,19 +244,19 @@ def _force(
         ordered = variable.transpose("omega", "wave_direction", "influenced_dof")
     except ValueError as error:
         raise DatabaseError(f"dimensions of {name!r}: {variable.dims}").about(
-            "shape", name, file=path
+            "shape", name
         ) from error
     return np.asarray(np.conj(ordered.values[order]), dtype=complex)
 
 
-def _number(path: Path, ds: xr.Dataset, name: str) -> float:
+def _number(ds: xr.Dataset, name: str) -> float:
     if name not in ds or ds[name].size != 1:
-        raise DatabaseError(f"needs one value of {name!r}").about("missing", name, file=path)
+        raise DatabaseError(f"needs one value of {name!r}").about("missing", name)
     return float(ds[name].values.item())
 
 
-def _depth(path: Path, ds: xr.Dataset) -> float:
+def _depth(ds: xr.Dataset) -> float:
     """Water depth; versions before 1.5 state the height of the sea bottom instead."""
     if "water_depth" not in ds and "sea_bottom" in ds:
-        return -_number(path, ds, "sea_bottom")
-    return _number(path, ds, "water_depth")
+        return -_number(ds, "sea_bottom")
+    return _number(ds, "water_depth")

@@ -23,6 +23,7 @@ from hydrodae.hdb.readers.nemoh_cal import CalBody, NemohCal, read_cal
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.support.arrays import Array, Complex
+from hydrodae.support.naming import names_file
 
 Mode = tuple[int, int]  # body, degree of freedom
 
@@ -112,6 +113,7 @@ def _read_tables(root: Path, cal: NemohCal, names: list[str], files: list[Path])
     )
 
 
+@names_file
 def _read_radiation(
     path: Path, motions: list[Mode], forces: list[Mode]
 ) -> tuple[Array, Array, Array, list[int] | None]:
@@ -120,7 +122,7 @@ def _read_radiation(
     if len(blocks) != len(motions):
         raise DatabaseError(
             f"{len(blocks)} zones, but Nemoh.cal has {len(motions)} degrees of freedom"
-        ).about("shape", file=path)
+        ).about("shape")
     columns = 1 + 2 * len(forces)
     meaning = f"frequency and (A, B) of the {len(forces)} forces of Nemoh.cal"
     tables = [tecplot.table(path, block, columns, meaning) for block in blocks]
@@ -130,15 +132,15 @@ def _read_radiation(
         _same_grid(path, block, columns, found, omega, blocks[0])
     a = np.stack([t[:, 1::2] for t in tables], axis=2)
     b = np.stack([t[:, 2::2] for t in tables], axis=2)
-    order = _zone_order(path, blocks, motions)
+    order = _zone_order(blocks, motions)
     if order is None:
         return omega, a, b, None
     if motions != forces:
-        raise DatabaseError("zones are not in the order of Nemoh.cal").about("order", file=path)
+        raise DatabaseError("zones are not in the order of Nemoh.cal").about("order")
     return omega, a[:, order][:, :, order], b[:, order][:, :, order], order
 
 
-def _zone_order(path: Path, blocks: list[tecplot.Block], motions: list[Mode]) -> list[int] | None:
+def _zone_order(blocks: list[tecplot.Block], motions: list[Mode]) -> list[int] | None:
     """Position of each motion among the zones by their titles; None if they are in order."""
     named = [b.title.rpartition("__") for b in blocks]
     if all(dof.lower() in DOFS for _, _, dof in named):
@@ -146,7 +148,7 @@ def _zone_order(path: Path, blocks: list[tecplot.Block], motions: list[Mode]) ->
         zones = [(bodies.index(body), DOFS.index(dof.lower())) for body, _, dof in named]
         if sorted(zones) != sorted(motions):
             raise DatabaseError("the zones are not the degrees of freedom of Nemoh.cal").about(
-                "order", file=path
+                "order"
             )
         return None if zones == motions else [zones.index(m) for m in motions]
     count: dict[int, int] = {}
@@ -157,10 +159,11 @@ def _zone_order(path: Path, blocks: list[tecplot.Block], motions: list[Mode]) ->
             raise DatabaseError(
                 f"zone of body {found[1]}, DoF {found[2]}, where "
                 f"Nemoh.cal has body {body + 1}, DoF {count[body]}"
-            ).about("order", file=path, line=block.line - 1)
+            ).about("order", line=block.line - 1)
     return None
 
 
+@names_file
 def _read_forces(
     path: Path, omega: Array, count: int, cal: NemohCal, known_deg: Array
 ) -> tuple[Complex, Array]:
@@ -172,10 +175,10 @@ def _read_forces(
         t = tecplot.table(path, block, 1 + 2 * count, meaning)
         _same_grid(path, block, t.shape[1], tecplot.to_omega(path, header, block, t), omega)
         values[:, h] = t[:, 1::2] * np.exp(-1j * t[:, 2::2])
-    heading_deg = _headings(path, blocks, cal)
+    heading_deg = _headings(blocks, cal)
     if known_deg.size and not np.allclose(known_deg, heading_deg, atol=2e-3):
         raise DatabaseError("headings differ from those of the other force files").about(
-            "conflict", "headings", file=path
+            "conflict", "headings"
         )
     # the file has its phase zero at (XEFF, YEFF), the project at the origin
     k = wavenumber(omega, cal.depth, cal.gravity)
@@ -184,7 +187,7 @@ def _read_forces(
     return values * np.exp(-1j * k[:, None] * path_length)[:, :, None], heading_deg
 
 
-def _headings(path: Path, blocks: list[tecplot.Block], cal: NemohCal) -> Array:
+def _headings(blocks: list[tecplot.Block], cal: NemohCal) -> Array:
     titles = []
     for block in blocks:
         degrees, radians = _BETA.search(block.title), _ANGLE.search(block.title)
@@ -194,12 +197,12 @@ def _headings(path: Path, blocks: list[tecplot.Block], cal: NemohCal) -> Array:
             angle = float(radians[1])
             if abs(angle) > 4.0 * np.pi:
                 raise DatabaseError(f"angle {angle:g}: expected radians; degrees?").about(
-                    "units", "headings", file=path, line=block.line - 1
+                    "units", "headings", line=block.line - 1
                 )
             titles.append(float(np.degrees(angle)))
         else:
             raise DatabaseError(f"no heading in {block.title!r}").about(
-                "missing", "headings", file=path, line=block.line - 1
+                "missing", "headings", line=block.line - 1
             )
     stated = np.array(titles)
     # titles carry three decimals, Nemoh.cal all of them

@@ -16,6 +16,7 @@ from hydrodae.errors import DatabaseError, Refusal
 from hydrodae.hdb.labels import DOFS
 from hydrodae.hdb.readers.text import number, read_lines, words
 from hydrodae.support.arrays import Array
+from hydrodae.support.naming import names_file
 
 #: No run has more frequencies, headings or bodies than this.
 LARGEST_COUNT = 1_000_000
@@ -67,23 +68,20 @@ class NemohCal:
 
 
 class _Lines:
-    """The lines of the file, read in order; errors name file and line."""
+    """The lines of the file, read in order; errors name the line."""
 
     def __init__(self, path: Path) -> None:
-        self.path = path
         self.lines = read_lines(path)
         self.at = 0
 
     def next(self, meaning: str) -> str:
         if self.at >= len(self.lines):
-            raise DatabaseError(f"the file ends before {meaning}").about(
-                "cut_short", file=self.path, line=self.at
-            )
+            raise DatabaseError(f"the file ends before {meaning}").about("cut_short", line=self.at)
         self.at += 1
         return self.lines[self.at - 1]
 
     def fail(self, message: str, reason: Refusal = "format") -> DatabaseError:
-        return DatabaseError(message).about(reason, file=self.path, line=self.at)
+        return DatabaseError(message).about(reason, line=self.at)
 
     def numbers(self, meaning: str, least: int) -> list[float]:
         """Leading numbers of the next line, before any `!`."""
@@ -132,6 +130,7 @@ class _Lines:
         return int(value)
 
 
+@names_file
 def read_cal(path: Path) -> NemohCal:
     """Read `Nemoh.cal` of Nemoh 2, Nemoh 3 or a program that writes the same format.
 

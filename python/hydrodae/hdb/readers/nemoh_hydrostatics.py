@@ -15,6 +15,7 @@ from hydrodae.hdb.hull.mesh_statics import mesh_statics
 from hydrodae.hdb.hull.meshes import read_mesh
 from hydrodae.hdb.readers.text import finite, read_lines
 from hydrodae.support.arrays import Array
+from hydrodae.support.naming import names_file
 
 _PAIR = re.compile(r"=\s*(\S+)\s*-\s*[XYZ]G\s*=\s*(\S+)")
 _VALUE = re.compile(r"^\s*(Displacement|Waterplane area)[^=]*=\s*(\S+)", re.IGNORECASE)
@@ -197,6 +198,7 @@ def _read_one(
     return FileHydrostatics(hs, gravity_center, (text, matrix))
 
 
+@names_file
 def _read_text(path: Path) -> tuple[Array, Array, dict[str, float]]:
     pairs: list[tuple[float, float]] = []
     values: dict[str, float] = {}
@@ -208,15 +210,16 @@ def _read_text(path: Path) -> tuple[Array, Array, dict[str, float]]:
             elif value:
                 values[value[1].lower()] = finite(value[2])
         except ValueError as error:
-            raise DatabaseError(f"{error}").about("format", file=path, line=i) from None
+            raise DatabaseError(f"{error}").about("format", line=i) from None
     if len(pairs) != 3 or "displacement" not in values:
         raise DatabaseError("expected three lines 'XF = . - XG = .' and a displacement").about(
-            "format", file=path
+            "format"
         )
     table = np.array(pairs)
     return table[:, 0], table[:, 1], values
 
 
+@names_file
 def _read_matrix(path: Path) -> Array:
     rows = [line.split() for line in read_lines(path) if line.strip()]
     try:
@@ -224,10 +227,10 @@ def _read_matrix(path: Path) -> Array:
     except ValueError as error:
         line = _line_of(path)
         raise DatabaseError(f"not numbers of a 6 x 6 matrix ({error})").about(
-            "format", file=path, line=line
+            "format", line=line
         ) from None
     if matrix.shape != (6, 6):
-        raise DatabaseError(f"not a 6 x 6 matrix but {matrix.shape}").about("shape", file=path)
+        raise DatabaseError(f"not a 6 x 6 matrix but {matrix.shape}").about("shape")
     return matrix
 
 

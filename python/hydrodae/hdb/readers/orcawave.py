@@ -27,6 +27,7 @@ from hydrodae.hdb.readers.symmetric import mirrored_forces, turned_forces
 from hydrodae.hdb.readers.text import line_of, read_text
 from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.support.arrays import Array, Complex
+from hydrodae.support.naming import names_file
 
 #: Positive senses that agree with right-handed axes, x forward, z up; others change the sign.
 SENSES = {
@@ -60,7 +61,7 @@ def orcawave_file(path: Path) -> Path | None:
     found = [p for p in paths if p.suffix.lower() in (".yml", ".yaml") and _has_tables(p)]
     if len(found) > 1:
         raise DatabaseError(f"which one is meant? {', '.join(p.name for p in found)}").about(
-            "ambiguous", file=path
+            "ambiguous"
         )
     return found[0] if found else None
 
@@ -69,6 +70,7 @@ def _has_tables(path: Path) -> bool:
     return _TABLES in read_text(path)
 
 
+@names_file
 def read_orcawave(path: Path) -> SourceData:
     """Read the vessel types of an OrcaFlex data file.
 
@@ -87,10 +89,10 @@ def read_orcawave(path: Path) -> SourceData:
     if "MultibodyGroups" in model:
         raise DatabaseError(
             f"a multibody group, whose coupling is not read here; {CONVERTER}"
-        ).about("unsupported", file=path)
+        ).about("unsupported")
     types = model.get("VesselTypes")
     if not isinstance(types, list) or not types:
-        raise DatabaseError("no VesselTypes in it").about("missing", "VesselTypes", file=path)
+        raise DatabaseError("no VesselTypes in it").about("missing", "VesselTypes")
     findings: list[Finding] = []
     units = units_of(path, model.get("General") or {})
     rho, gravity, depth, files = water_of(path, model, findings)
@@ -100,7 +102,7 @@ def read_orcawave(path: Path) -> SourceData:
     for body in bodies[1:]:
         if not np.array_equal(body.omega, omega) or not np.array_equal(body.heading, heading):
             raise DatabaseError("vessel types with different frequencies or directions").about(
-                "conflict", file=path
+                "conflict"
             )
     size = 6 * len(bodies)
     a, b = np.zeros((omega.size, size, size)), np.zeros((omega.size, size, size))
@@ -158,7 +160,7 @@ class _Vessel:
             raise DatabaseError(
                 f"{self.name}: Symmetry {self.symmetry!r}: expected one of "
                 f"{', '.join(SYMMETRIES)}; save all directions in OrcaFlex (Symmetry: None)"
-            ).about("unsupported", "Symmetry", file=path)
+            ).about("unsupported", "Symmetry")
         draught = self._entry(vessel, "Draughts")[0]
         self.draught = draught
         self.waves = vessel.get("WavesReferredToBy", "period (s)")
@@ -176,7 +178,7 @@ class _Vessel:
     def _entry(self, where: dict[str, Any], key: str) -> list[Any]:
         value = where.get(key)
         if not isinstance(value, list) or not value:
-            raise DatabaseError(f"{self.name}: no {key}").about("missing", key, file=self.path)
+            raise DatabaseError(f"{self.name}: no {key}").about("missing", key)
         return value
 
     def _vector(self, where: dict[str, Any], key: str) -> Array:
@@ -190,12 +192,10 @@ class _Vessel:
         for wrong in (v for v in flat if not isinstance(v, float)):
             raise DatabaseError(
                 f"{self.name}: {key}: {wrong!r} is not a number; expected {size}"
-            ).about("format", key, file=self.path, line=line_of(self.path, str(wrong)))
+            ).about("format", key, line=line_of(self.path, str(wrong)))
         even = all(isinstance(row, list) and len(row) == shape[-1] for row in rows)
         if len(rows) != shape[0] or (len(shape) > 1 and not even):
-            raise DatabaseError(f"{self.name}: {key}: expected {size} numbers").about(
-                "shape", key, file=self.path
-            )
+            raise DatabaseError(f"{self.name}: {key}: expected {size} numbers").about("shape", key)
         return np.array(rows, dtype=float)
 
     def _omega(self, value: Any) -> float:
@@ -203,7 +203,7 @@ class _Vessel:
             value = np.inf
         if not isinstance(value, float) or np.isnan(value):
             raise DatabaseError(f"{self.name}: {value!r} is no period or frequency").about(
-                "format", file=self.path, line=line_of(self.path, str(value))
+                "format", line=line_of(self.path, str(value))
             )
         if self.waves.startswith("frequency (rad"):
             return value
@@ -234,12 +234,12 @@ class _Vessel:
             raise DatabaseError(
                 f"{self.name}: RAOOrigin {origin} is not ReferenceOrigin "
                 f"{self.point.tolist()}: export both about one point"
-            ).about("point", self.name, file=self.path)
+            ).about("point", self.name)
         unit = vessel.get("RAOPhaseUnitsConvention", "degrees")
         relative = vessel.get("RAOPhaseRelativeToConvention", "crest")
         if unit not in ("degrees", "radians") or relative not in ("crest", "trough"):
             raise DatabaseError(f"{self.name}: phases in {unit} about the {relative}").about(
-                "unsupported", "phases", file=self.path
+                "unsupported", "phases"
             )
         sense = 1.0 if vessel.get("RAOPhaseConvention", "leads") == "leads" else -1.0
         sense *= np.pi / 180.0 if unit == "degrees" else 1.0
@@ -262,7 +262,7 @@ class _Vessel:
             if table.shape != (self.omega.size, 13) or not np.allclose(table[:, 0], self.omega):
                 raise DatabaseError(
                     f"{self.name}: LoadRAOs at other frequencies than added mass"
-                ).about("conflict", "frequencies", file=self.path)
+                ).about("conflict", "frequencies")
             result[:, h] = factor * table[:, 1::2] * np.exp(1j * sense * table[:, 2::2])
         if phase_origin is None or any(v is None for v in phase_origin):
             place = self.point  # `~` stands for the RAO origin
@@ -299,7 +299,7 @@ class _Vessel:
         volume = self.draught.get("DisplacedVolume")
         if not isinstance(volume, float):
             raise DatabaseError(f"{self.name}: DisplacedVolume: expected a number").about(
-                "format", "DisplacedVolume", file=self.path
+                "format", "DisplacedVolume"
             )
         volume *= self.units.length**3
         center = self._vector(self.draught, "CentreOfBuoyancy")

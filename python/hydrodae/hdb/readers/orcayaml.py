@@ -10,6 +10,7 @@ import yaml
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.readers.text import read_text
+from hydrodae.support.naming import names_file
 
 #: `1`, `2.5e3`, `-1e-6`, and `Infinity` as OrcaFlex writes it.
 _FLOAT = re.compile(r"[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?|\.?inf(?:inity)?)$", re.IGNORECASE)
@@ -32,6 +33,7 @@ _Loader.add_implicit_resolver("tag:yaml.org,2002:null", _NULL, ["~", ""])
 _Loader.add_constructor("tag:yaml.org,2002:float", _number)
 
 
+@names_file
 def read_yaml(path: Path) -> dict[str, Any]:
     """Read a data file of OrcaFlex or OrcaWave.
 
@@ -51,11 +53,9 @@ def read_yaml(path: Path) -> dict[str, Any]:
         mark = getattr(error, "problem_mark", None)
         line = 0 if mark is None else mark.line + 1
         what = getattr(error, "problem", None) or str(error)
-        raise DatabaseError(f"not YAML: {what}").about("format", file=path, line=line) from None
+        raise DatabaseError(f"not YAML: {what}").about("format", line=line) from None
     if value is None:
         return {}
     if not isinstance(value, dict):
-        raise DatabaseError("not a data file of OrcaFlex: expected `key: value`").about(
-            "format", file=path
-        )
+        raise DatabaseError("not a data file of OrcaFlex: expected `key: value`").about("format")
     return value

@@ -12,6 +12,7 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers.text import finite, read_lines, words
 from hydrodae.support.arrays import Array
+from hydrodae.support.naming import names_file
 
 
 @dataclass(frozen=True)
@@ -60,6 +61,7 @@ class StiffnessFile:
         return Hydrostatics.from_stiffness(self.stiffness, point, known, point, rho, gravity)
 
 
+@names_file
 def read_stiffness(path: str | Path) -> StiffnessFile:
     """Read six rows of six numbers, or a `Hydrostatic.in` of HAMS.
 
@@ -77,20 +79,18 @@ def read_stiffness(path: str | Path) -> StiffnessFile:
     try:
         lines = read_lines(file)
     except OSError as error:
-        raise DatabaseError(f"cannot be read: {error.strerror}").about(
-            "missing", file=file
-        ) from error
+        raise DatabaseError(f"cannot be read: {error.strerror}").about("missing") from error
     heads = [i for i, line in enumerate(lines) if "hydrostatic restoring" in line.lower()]
     if heads:
         masses = [i for i, line in enumerate(lines) if "mass matrix" in line.lower()]
-        mass = float(_rows(file, lines, masses[0] + 1)[0, 0]) if masses else None
-        stiffness = _rows(file, lines, heads[0] + 1)
+        mass = float(_rows(lines, masses[0] + 1)[0, 0]) if masses else None
+        stiffness = _rows(lines, heads[0] + 1)
     else:
-        mass, stiffness = None, _rows(file, lines, 0)
+        mass, stiffness = None, _rows(lines, 0)
     return StiffnessFile(stiffness, mass)
 
 
-def _rows(file: Path, lines: list[str], start: int) -> Array:
+def _rows(lines: list[str], start: int) -> Array:
     """Six rows of six numbers from line `start` on."""
     rows = []
     for number, line in enumerate(lines[start:], start=start + 1):
@@ -103,8 +103,8 @@ def _rows(file: Path, lines: list[str], start: int) -> Array:
             rows.append([])
         if len(rows[-1]) != 6:
             raise DatabaseError(f"expected a row of 6 numbers, got {line.strip()!r}").about(
-                "format", file=file, line=number
+                "format", line=number
             )
         if len(rows) == 6:
             return np.array(rows)
-    raise DatabaseError(f"expected 6 rows of 6 numbers, got {len(rows)}").about("shape", file=file)
+    raise DatabaseError(f"expected 6 rows of 6 numbers, got {len(rows)}").about("shape")

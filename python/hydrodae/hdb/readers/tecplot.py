@@ -15,6 +15,7 @@ import numpy as np
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.readers.text import number, read_lines
 from hydrodae.support.arrays import Array
+from hydrodae.support.naming import names_file
 
 _NUMERIC = re.compile(r"[+-]?(\d|\.\d|nan\b|inf)|\*{3,}", re.IGNORECASE)
 _VARIABLE = re.compile(r'VARIABLES\s*=\s*"?\s*([A-Za-z]+)\s*\(([^)]*)\)', re.IGNORECASE)
@@ -47,6 +48,7 @@ class Block:
         return self.line + int(np.searchsorted(before, row * columns, side="right"))
 
 
+@names_file
 def read_blocks(path: Path) -> tuple[str, list[Block]]:
     """Read a file into its header (all text before the first number) and its blocks.
 
@@ -73,7 +75,7 @@ def read_blocks(path: Path) -> tuple[str, list[Block]]:
         if _NUMERIC.match(tokens[0]) and "=" not in text:
             if not rows:
                 start = i
-            rows.append(_row(path, i, tokens))
+            rows.append(_row(i, tokens))
         else:
             close()
             title = text.strip()
@@ -81,7 +83,7 @@ def read_blocks(path: Path) -> tuple[str, list[Block]]:
                 header.append(title)
     close()
     if not blocks:
-        raise DatabaseError("no numbers in it").about("missing", "numbers", file=path)
+        raise DatabaseError("no numbers in it").about("missing", "numbers")
     return "\n".join(header), blocks
 
 
@@ -144,7 +146,7 @@ def to_omega(path: Path, header: str, block: Block, table: Array) -> Array:
     )
 
 
-def _row(path: Path, line: int, tokens: list[str]) -> list[float]:
+def _row(line: int, tokens: list[str]) -> list[float]:
     try:
         return [float(t) for t in tokens]
     except ValueError:
@@ -154,9 +156,7 @@ def _row(path: Path, line: int, tokens: list[str]) -> list[float]:
         try:
             row.append(number(token))
         except ValueError:
-            raise DatabaseError(f"{token!r} is not a number").about(
-                "format", file=path, line=line
-            ) from None
+            raise DatabaseError(f"{token!r} is not a number").about("format", line=line) from None
     return row
 
 

@@ -19,6 +19,7 @@ from hydrodae.hdb.readers.hydrodyn import hydrodyn_of
 from hydrodae.hdb.readers.text import NUMBER, read_lines, read_text, words
 from hydrodae.hdb.readers.wamit_asked import HAMS, Asked, of_hams, steps
 from hydrodae.support.arrays import Array
+from hydrodae.support.naming import names_file
 
 _NUMBERS = re.compile(NUMBER)
 #: WAMIT prints the density 1 when it was not given one.
@@ -72,7 +73,9 @@ def read_control(stem: Path) -> Control:
         if path is not None:
             reader(path, control)
             control.files.append(path)
-    _frc(stem, control)
+    frc, listing = beside(stem, ".frc"), beside(stem, ".mmx")
+    if frc is not None and listing is not None:
+        _frc(frc, listing, control)
     hams = hams_file(stem, "ControlFile.in")
     if hams is not None and control.depth is None:
         _hams(hams, control)
@@ -117,13 +120,13 @@ def _numbers(text: str) -> list[float]:
     return [float(n.upper().replace("D", "E")) for n in _NUMBERS.findall(text)]
 
 
-def _leading(line: str, path: Path, count: int) -> list[float]:
+def _leading(line: str, count: int) -> list[float]:
     """Numbers at the start of line `count` of a file, up to the first word that is none."""
     found = []
     try:
         separate = words(line)
     except ValueError as error:
-        raise DatabaseError(f"{error}").about("format", file=path, line=count) from None
+        raise DatabaseError(f"{error}").about("format", line=count) from None
     for word in separate:
         if not re.fullmatch(NUMBER, word):
             break
@@ -143,23 +146,22 @@ def _cfg(path: Path, control: Control) -> None:
     control.first_input = control.first_input or 1
 
 
+@names_file
 def _pot(path: Path, control: Control) -> None:
     """Read a potential control file: form 2 (with NBODY), or form 1 (one body)."""
     lines = read_lines(path)
-    values = [_leading(line, path, n) for n, line in enumerate(lines[1:], start=2)]
+    values = [_leading(line, n) for n, line in enumerate(lines[1:], start=2)]
     values.insert(0, [])  # a title
 
     def expect(row: int, count: int, what: str) -> list[float]:
         if row >= len(lines) or len(values[row]) < count:
-            raise DatabaseError(f"expected {count} numbers: {what}").about(
-                "format", file=path, line=row + 1
-            )
+            raise DatabaseError(f"expected {count} numbers: {what}").about("format", line=row + 1)
         return values[row][:count]
 
     (depth,) = expect(1, 1, "HBOT")
     control.depth = np.inf if depth <= 0.0 else depth
     if len(values[1]) >= 5:
-        control.points.append(_point(path, 1, values[1][1:5]))
+        control.points.append(_point(1, values[1][1:5]))
         return
     row = 3
     count = int(expect(row, 1, "NPER")[0])
@@ -174,11 +176,9 @@ def _pot(path: Path, control: Control) -> None:
     modes: list[list[int]] = []
     for _ in range(bodies):
         if row >= len(lines) or not lines[row].strip():
-            raise DatabaseError("expected the .gdf file of a body").about(
-                "format", file=path, line=row + 1
-            )
+            raise DatabaseError("expected the .gdf file of a body").about("format", line=row + 1)
         control.names.append(PureWindowsPath(lines[row].split()[0]).stem)
-        control.points.append(_point(path, row + 1, expect(row + 1, 4, "XBODY(1-4)")))
+        control.points.append(_point(row + 1, expect(row + 1, 4, "XBODY(1-4)")))
         chosen = expect(row + 2, 6, "MODE(1-6)")
         modes.append([i for i, wanted_one in enumerate(chosen, 1) if all_six or wanted_one])
         row += 3
@@ -196,14 +196,15 @@ def _skip(values: list[list[float]], row: int, count: int) -> int:
     return row
 
 
-def _point(path: Path, row: int, xbody: list[float]) -> Array:
+def _point(row: int, xbody: list[float]) -> Array:
     if xbody[3] != 0.0:
         raise DatabaseError(
             f"body axes turned by XBODY(4) = {xbody[3]:g} deg; run it with 0"
-        ).about("unsupported", "XBODY", file=path, line=row + 1)
+        ).about("unsupported", "XBODY", line=row + 1)
     return np.array(xbody[:3])
 
 
+@names_file
 def _listing(path: Path, control: Control) -> None:
     """Read `.mmx` or `.out`; bodies are counted by their lines of volumes."""
     seen = 0
@@ -226,7 +227,7 @@ def _listing(path: Path, control: Control) -> None:
             found = _numbers(line)
             if len(found) != 4 or found[3] != 0.0:
                 raise DatabaseError(f"body axes turned: {line.strip()!r}; run it with 0").about(
-                    "unsupported", "XBODY", file=path, line=count
+                    "unsupported", "XBODY", line=count
                 )
             control.points.append(np.array(found[:3]))
         row = re.match(r"\s*C\((\d),\d\)[C(),\d]*:(.*)", line)
@@ -236,11 +237,11 @@ def _listing(path: Path, control: Control) -> None:
             seen += 1
             if len(control.statics) < seen:
                 control.statics.append(Statics())
-            control.statics[seen - 1].volume = float(np.median(_after(path, count, line)))
+            control.statics[seen - 1].volume = float(np.median(_after(count, line)))
         elif seen and "Center of Buoyancy" in line:
-            control.statics[seen - 1].center_of_buoyancy = _after(path, count, line)
+            control.statics[seen - 1].center_of_buoyancy = _after(count, line)
         elif seen and "Center of Gravity" in line:
-            control.statics[seen - 1].center_of_gravity = _after(path, count, line)
+            control.statics[seen - 1].center_of_gravity = _after(count, line)
         elif seen and re.match(r"\s*3\s+3\s+\S+\s*$", line) and path.suffix.lower() == ".mmx":
             control.statics[seen - 1].mass_over_rho = _numbers(line)[2]
 
@@ -256,15 +257,13 @@ def _stiffness_row(control: Control, body: int, row: int, values: list[float]) -
             k[column, row - 1] = value
 
 
-def _frc(stem: Path, control: Control) -> None:
+@names_file
+def _frc(path: Path, listing: Path, control: Control) -> None:
     """Density of alternative form 2: the third line is one number, followed by centres."""
-    path, matrix = beside(stem, ".frc"), beside(stem, ".mmx")
-    if path is None or matrix is None:
-        return
-    form = re.search(r"IALTFRC\s*=\s*(\d)", read_text(matrix))
+    form = re.search(r"IALTFRC\s*=\s*(\d)", read_text(listing))
     lines = read_lines(path)
     if form and form[1] != "1" and len(lines) > 2:
-        found = _leading(lines[2], path, 3)
+        found = _leading(lines[2], 3)
         if found and found[0] > LEAST_DENSITY:
             control.rho = found[0]
             control.files.append(path)
@@ -293,14 +292,13 @@ def mesh_of(stem: Path, name: str, alone: bool) -> tuple[Path, bool] | None:
     return None if path is None else (path, False)
 
 
+@names_file
 def _hams(path: Path, control: Control) -> None:
     """Depth (negative: infinite), reference point and length of HAMS; its tables hold periods."""
     text = read_text(path)
     depth = re.search(rf"Waterdepth\s+({NUMBER})(?!,)", text, re.IGNORECASE)
     if depth is None:
-        raise DatabaseError("no line Waterdepth with a number").about(
-            "missing", "Waterdepth", file=path
-        )
+        raise DatabaseError("no line Waterdepth with a number").about("missing", "Waterdepth")
     (value,) = _numbers(depth[1])
     control.depth = np.inf if value <= 0.0 else value
     center = re.search(rf"Reference_body_center((?:\s+{NUMBER}){{3}})", text)
@@ -313,25 +311,24 @@ def _hams(path: Path, control: Control) -> None:
     if kind and control.first_column is None:
         if kind[1] not in HAMS:
             raise DatabaseError(f"Output_frequency_type {kind[1]}: expected 1 to 4").about(
-                "format", "Output_frequency_type", file=path
+                "format", "Output_frequency_type"
             )
         control.first_column = HAMS[kind[1]]
     control.asked = of_hams(path, text)
 
 
-def _after(path: Path, count: int, line: str) -> Array:
+def _after(count: int, line: str) -> Array:
     """Three numbers behind the brackets and the colon."""
     found = _numbers(line[max(line.rfind(":"), line.rfind(")")) + 1 :])
     if len(found) != 3:
-        raise DatabaseError(f"expected 3 numbers in {line.strip()!r}").about(
-            "format", file=path, line=count
-        )
+        raise DatabaseError(f"expected 3 numbers in {line.strip()!r}").about("format", line=count)
     return np.array(found)
 
 
+@names_file
 def _gdf(path: Path, control: Control) -> None:
     lines = read_lines(path)
-    found = _leading(lines[1], path, 2) if len(lines) > 1 else []
+    found = _leading(lines[1], 2) if len(lines) > 1 else []
     if len(found) < 2:
-        raise DatabaseError("expected 2 numbers: ULEN and GRAV").about("format", file=path, line=2)
+        raise DatabaseError("expected 2 numbers: ULEN and GRAV").about("format", line=2)
     control.length, control.gravity = found[0], found[1]

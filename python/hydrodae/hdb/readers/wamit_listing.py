@@ -15,6 +15,7 @@ import numpy as np
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.readers.text import NUMBER, number, read_lines
 from hydrodae.support.arrays import Array
+from hydrodae.support.naming import names_file
 
 #: Of the list of periods that POTEN has solved, with the time of day.
 _SOLVED = re.compile(r"\s*(-?\d+\.\d+)\s+\d\d:\d\d:\d\d\b")
@@ -63,6 +64,7 @@ def is_listing(path: Path) -> bool:
         return "WAMIT" in f.read(4000)
 
 
+@names_file
 def read_listing(path: Path) -> Listing:
     """Read the tables of added mass, damping and exciting forces.
 
@@ -88,9 +90,7 @@ def read_listing(path: Path) -> Listing:
         elif re.search(r"Wave (period|heading)[^=:]*[=:]\s*\S", line, re.IGNORECASE) and not (
             _HEADING.search(line)
         ):
-            raise DatabaseError(f"not a number: {line.strip()[:60]!r}").about(
-                "format", file=path, line=count
-            )
+            raise DatabaseError(f"not a number: {line.strip()[:60]!r}").about("format", line=count)
         elif not told and (row_of := _SOLVED.match(line)):
             solved.add(row_of[1])
         elif "ADDED-MASS" in line:
@@ -102,12 +102,12 @@ def read_listing(path: Path) -> Listing:
         elif re.match(r"\s+[A-Z]{4,}", line):
             table = ""  # a table of something else: responses, drift forces
         elif table and re.match(r"\s*\d+\s", line):
-            values = _values(path, count, line)
+            values = _values(count, line)
             if table == "radiation":
                 row = [period, *values, np.nan][:5] if len(values) == 3 else [period, *values]
-                radiation.add(count, _of_length(path, count, row, 5, "I, J, A [, B]"))
+                radiation.add(count, _of_length(count, row, 5, "I, J, A [, B]"))
             else:
-                _of_length(path, count, values, 3, "I, modulus, phase")
+                _of_length(count, values, 3, "I, modulus, phase")
                 i, modulus, phase = values[0], values[1], values[2]
                 turn = np.radians(phase)
                 row = [period, heading, abs(i), modulus, phase]
@@ -116,12 +116,12 @@ def read_listing(path: Path) -> Listing:
     if not radiation.values:
         raise DatabaseError(
             "no tables of added mass in it: run WAMIT again with IOPTN(1) = 1 in its .frc"
-        ).about("missing", "added_mass", file=path)
+        ).about("missing", "added_mass")
     if len(solved) > len(told):
         raise DatabaseError(
             f"{len(solved)} periods were solved, results of {len(told)} follow: the file "
             f"is cut short"
-        ).about("cut_short", file=path)
+        ).about("cut_short")
     best = next((forces[title] for title in _FORCES if forces[title].values), _Rows())
     force = np.array(best.values) if best.values else np.zeros((0, 7))
     return Listing(
@@ -138,16 +138,16 @@ def _once(rows: Array, lines: list[int], key: int) -> tuple[Array, list[int]]:
     return rows[first], [lines[i] for i in first]
 
 
-def _values(path: Path, count: int, line: str) -> list[float]:
+def _values(count: int, line: str) -> list[float]:
     try:
         return [number(word) for word in line.split()]
     except ValueError:
         raise DatabaseError(f"not numbers: {line.strip()[:60]!r}").about(
-            "format", file=path, line=count
+            "format", line=count
         ) from None
 
 
-def _of_length(path: Path, count: int, row: list[float], size: int, what: str) -> list[float]:
+def _of_length(count: int, row: list[float], size: int, what: str) -> list[float]:
     if len(row) != size:
-        raise DatabaseError(f"expected {what}").about("format", file=path, line=count)
+        raise DatabaseError(f"expected {what}").about("format", line=count)
     return row

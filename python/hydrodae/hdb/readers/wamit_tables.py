@@ -18,8 +18,10 @@ from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.readers.text import number, read_lines
 from hydrodae.hdb.relations.dispersion import frequency
 from hydrodae.support.arrays import Array
+from hydrodae.support.naming import names_file
 
 
+@names_file
 def read_rows(path: Path, least: int, most: int, meaning: str) -> tuple[Array, list[int]]:
     """Read the lines of a file.
 
@@ -54,22 +56,22 @@ def read_rows(path: Path, least: int, most: int, meaning: str) -> tuple[Array, l
             if count == 1:
                 continue  # the title line
             raise DatabaseError(f"not numbers: {line.strip()[:60]!r}; expected {meaning}").about(
-                "format", file=path, line=count
+                "format", line=count
             ) from None
         if not all(map(math.isfinite, values[:2])):  # period or mode; tables may hold NaN
             raise DatabaseError(f"{' '.join(words[:2])}: expected {meaning}").about(
-                "format", file=path, line=count
+                "format", line=count
             )
         if not least <= len(values) <= most:
             wanted = f"{least}" if least == most else f"{least} or {most}"
             raise DatabaseError(f"{len(values)} numbers, expected {wanted}: {meaning}").about(
-                "shape", file=path, line=count
+                "shape", line=count
             )
         rows.append(values + [np.nan] * (most - len(values)))
         lines.append(count)
     if not rows:
         raise DatabaseError(f"no numbers in it; expected lines of {meaning}").about(
-            "missing", "numbers", file=path
+            "missing", "numbers"
         )
     return np.array(rows), lines
 
