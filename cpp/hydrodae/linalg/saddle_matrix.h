@@ -1,5 +1,5 @@
 #pragma once
-/// The saddle-point matrix of accelerations and reactions, its factors and what they tell:
+/// The saddle-point matrix of accelerations and reactions, its factors and what follows from them:
 ///
 ///   K = [ M   G^T ]
 ///       [ G   -eD ]

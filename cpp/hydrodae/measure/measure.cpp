@@ -4,13 +4,10 @@
 #include <array>
 #include <cmath>
 
-#include "hydrodae/system/mechanisms.h"
-
 namespace hydrodae::measure {
 
 Measure::Measure(const system::Regime& system, double t0, const VectorX& y, const VectorX& yp)
-    : s_(system), observer_(system), idle_(system::has_idle_reactions(system)), t_(t0), end_(t0),
-      y_(y), yp_(yp) {
+    : s_(system), observer_(system), t_(t0), end_(t0), y_(y), yp_(yp) {
   const Observation& o = observer_.observe_balance(t0, y, yp);
   power_ = powers();
   work_ = end_work_ = std::vector<double>(power_.size(), 0.0);
@@ -24,7 +21,7 @@ Measure::Measure(const system::Regime& system, double t0, const VectorX& y, cons
 }
 
 /// Powers at the nodes of the step from t_ to t, on the solver's interpolant, and the work over it.
-void Measure::begin(double t, const Interpolant& at) {
+void Measure::begin(double t, const Interpolant& at, bool idle) {
   before_ = now_;
   end_ = t;
   const std::size_t last = rule_.nodes.size() - 1;
@@ -33,7 +30,7 @@ void Measure::begin(double t, const Interpolant& at) {
   for (std::size_t node = 1; node <= last; ++node) {
     const double time = node == last ? t : t_ + (t - t_) * rule_.nodes[node];
     at(time, y_, yp_);
-    if (idle_ && node < last)
+    if (idle && node < last)
       observer_.observe_powers(time, y_, yp_);
     else
       observer_.observe_balance(time, y_, yp_);
@@ -61,7 +58,7 @@ void Measure::take_mean(const Interpolant& at) {
 void Measure::begin(double t, std::span<const double> weights, const StageState& stage,
                     const Interpolant& at) {
   if (mean_from_ > t_ && mean_from_ <= t)
-    return begin(t, at);
+    return begin(t, at, true);
   before_ = now_;
   end_ = t;
   powers_.clear();

@@ -38,7 +38,8 @@ public:
   void set_quadrature(const Quadrature& rule) { rule_ = rule; }
 
   /// Takes the accepted step that ends at `t`: balance and turns are those of its end.
-  void begin(double t, const Interpolant& at);
+  /// @param idle `at` gives no reactions inside the step, where they do no work
+  void begin(double t, const Interpolant& at, bool idle);
 
   /// The same by the stages of the method that made the step, where nobody looks inside: the work
   /// is one more unknown of the same method.
@@ -126,8 +127,7 @@ private:
 
   const system::Regime& s_;
   Observer observer_;
-  const bool idle_; ///< reactions do no work
-  double t_, end_;  ///< start and end of the step [s]
+  double t_, end_; ///< start and end of the step [s]
   /// Per component, at t_; with several mechanisms then per load and per mechanism its rows.
   std::vector<double> power_, work_;
   std::vector<std::vector<double>> powers_;  ///< at the nodes of the step; empty: by its stages

@@ -209,7 +209,7 @@ void Simulation::measure_step() {
     return;
   }
   choose_quadrature();
-  measure_->begin(t_, inside_);
+  measure_->begin(t_, inside_, !weights.empty());
 }
 
 /// Throws SolverError where the step is proved wrong.
