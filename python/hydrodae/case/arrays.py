@@ -39,16 +39,8 @@ OF_UNITS = (
 REFERENCES = ("name", "hydro", "body", "body_a", "body_b", "bodies", "joint", "joint_b", "marker")
 CHANNELS = ("inputs", "outputs")
 #: Keys that are places in the world.
-PLACES = (
-    "center_of_gravity",
-    "center_of_buoyancy",
-    "mesh_origin",
-    "point",
-    "point_a",
-    "point_b",
-    "points",
-    "path",
-)
+POINTS = ("point", "point_a", "point_b", "points")
+PLACES = (*POINTS, "center_of_gravity", "center_of_buoyancy", "mesh_origin", "path")
 
 
 def hexagonal(count: int, spacing: float) -> dict[str, tuple[float, float]]:
