@@ -1,13 +1,13 @@
 #pragma once
 /// The radiation memory at all stages of a step, eliminated by hand. Its states are linear with
-/// constant coefficients and feel the bodies through their velocities U only; with increments Z_i
+/// constant coefficients and feel the bodies through their velocities U only. With increments Z_i
 /// and their rates sum_j (a^-1)_ij Z_j / h:
 ///
-///   sum_j ((a^-1)_ij / h - [i = j] A_r) dz_j - B_r dU_i = r_i      dz_i = sum_j G_ij (r_j + B_r
-///   dU_j)
+///   sum_j ((a^-1)_ij / h - [i = j] A_r) dz_j - B_r dU_i = r_i
+///   dz_i = sum_j G_ij (r_j + B_r dU_j)
 ///
-/// so that stage i of the bodies feels L C G_ij B_r dU_j of each stage j, as dense as the added
-/// mass between the bodies (linalg/newton_matrix.h does the same for one stage).
+/// Stage i of the bodies feels L C G_ij B_r dU_j of each stage j: as dense as the added mass
+/// between the bodies. linalg/newton_matrix.h does the same for one stage.
 
 #include <algorithm>
 #include <vector>
