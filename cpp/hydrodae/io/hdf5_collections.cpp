@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <cstdint>
-#include <cstring>
 #include <string_view>
 
 #include "hydrodae/core/error.h"
@@ -77,11 +76,8 @@ void check_collections(const std::string& path) {
   constexpr std::string_view mark("GCOL\1\0\0\0", 8);
   const MappedFile file(path);
   const std::string_view bytes = file.bytes();
-  for (std::size_t at = 0; at < bytes.size(); at += mark.size()) {
-    const void* found = memmem(bytes.data() + at, bytes.size() - at, mark.data(), mark.size());
-    if (!found)
-      return;
-    at = static_cast<std::size_t>(static_cast<const char*>(found) - bytes.data());
+  for (std::size_t at = 0; (at = bytes.find(mark, at)) != std::string_view::npos;
+       at += mark.size()) {
     if (bytes.size() - at < header)
       return;
     const std::uint64_t size = number_at(bytes, at + 8, 8);
