@@ -82,8 +82,8 @@ class DatabaseError(HydrodaeError, ValueError):
         a `label` is unknown, a reference `point` unknown or another; `frequencies` or `headings`
         are too few or out of order; what is asked for is out of the `range` of the tables; tables
         lack a `symmetry`; a `mesh` is no hull; bodies of such a `geometry` cannot be together; an
-        `option` is none; a fit misses its `target` or met its `time_limit`; other `software` is
-        missing or failed; "" if unknown.
+        `option` does not exist; a fit misses its `target` or met its `time_limit`; other
+        `software` is missing or failed; "" if unknown.
     subject : str
         What it is about: a dataset, a coordinate, a body, an option, or what a mesh does wrong;
         "" where it is about the whole.

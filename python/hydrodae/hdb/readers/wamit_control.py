@@ -121,7 +121,7 @@ def _numbers(text: str) -> list[float]:
 
 
 def _leading(line: str, count: int) -> list[float]:
-    """Numbers at the start of line `count` of a file, up to the first word that is none."""
+    """Numbers at the start of line `count` of a file, up to the first word that is not a number."""
     found = []
     try:
         separate = words(line)
