@@ -26,7 +26,8 @@ INTRODUCTION = """# Reference of case files
 This page lists the tables of a case file, and links their keys. A case is one TOML file. Units are
 SI, world axes have z up, and z = 0 is the still water line. Only keys that end in `_deg` are in
 degrees. Unknown keys and values out of range are errors that name file, line, column and the
-nearest valid name. `title` is the only key outside tables.
+nearest valid name. Outside tables are `title`, and `missing`: texts that name parts of the modelled
+device that the case lacks. Each run notes them.
 
 `hydrodae keys` prints what stands here:
 

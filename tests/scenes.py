@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import runpy
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 AXES = {"surge": [1.0, 0.0, 0.0], "heave": [0.0, 0.0, 1.0]}
@@ -20,6 +22,12 @@ def toml(value: Any) -> str:
     if isinstance(value, Sequence):
         return "[" + ", ".join(map(toml, value)) + "]"
     return repr(float(value)) if isinstance(value, float) else repr(value)
+
+
+def four_bar_windows(count: int) -> str:
+    """Return the case of a chain of so many four-bar windows."""
+    writer = Path(__file__).resolve().parents[1] / "cases" / "benchmarks" / "four_bar.py"
+    return str(runpy.run_path(str(writer))["four_bar"](count))
 
 
 def table(kind: str, **keys: Any) -> str:

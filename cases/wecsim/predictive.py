@@ -96,6 +96,8 @@ if __name__ == "__main__":
     parser.add_argument("folder", type=Path, help="Controls/MPC of WEC-Sim's applications")
     source = parser.parse_args().folder
     with tempfile.TemporaryDirectory() as name:
-        found = figures(convert(source, Path(name) / "case").case, source, 10)
+        found = figures(
+            convert(source, Path(name) / "case", accept=["controller"]).case, source, 10
+        )
     for quantity, value in found.items():
         print(f"{quantity}: {value:.5g}")

@@ -26,12 +26,14 @@ inline constexpr const char* usage =
   --method NAME    the same as --set solver.method="NAME": auto, radau, ...
   --force          run a pair of method and formulation that is known to fail
   --verify METHOD  estimate the error by a second run with another method: radau, ida, explicit_rk
-  --strict         exit with 5 where the motion of a body or line is not reproducible to the end
+  --strict         exit with 5 where the motion of a body or line is not reproducible to the end, or
+                   no estimate of the error reaches the end
   --checkpoint SECONDS
                    keep RESULTS.checkpoint.h5 beside RESULTS.h5 while the run lasts: what --resume
                    goes on from, anew after so many seconds of wall time
   --resume         go on from the checkpoint of a run that was cut off; the results file then holds
-                   the whole run. The case and its overrides have to be those of that run
+                   the whole run. The case, its overrides and the files that it reads have to be
+                   those of that run
   --library FILE   take force laws of types library_load and library_wrench from this shared library
   --check          read and check the case, print what is in it, do not run
   --keys           list the tables of a case file, the keys of one, or those of a type of entry:
@@ -39,7 +41,8 @@ inline constexpr const char* usage =
   --quiet          no progress on stderr
 
 Exit codes: 0 done, 2 bad case or model, 3 solver failure, 4 interrupted, 5 not reproducible
-(--strict); what was computed before a failure or an interrupt (Ctrl-C) is kept in the results file.
+(--strict); what was computed before a failure or an interrupt (Ctrl-C, SIGTERM) is kept in the
+results file.
 )";
 
 struct Arguments {
@@ -48,7 +51,7 @@ struct Arguments {
   io::Overrides overrides;
   std::vector<std::string> libraries;
   std::vector<std::string> words; ///< after --keys
-  bool quiet = false, strict = false;
+  bool quiet = false;
   RunOptions options;
 };
 
@@ -99,7 +102,7 @@ inline Arguments parse(int argc, char** argv) {
     else if (word == "--verify")
       arguments.options.verify = next_value(argc, argv, i);
     else if (word == "--strict")
-      arguments.strict = true;
+      arguments.options.strict = true;
     else if (word == "--resume")
       arguments.options.resume = true;
     else if (word == "--checkpoint")

@@ -101,7 +101,7 @@ void print_controllers(const hydrodae::RunStatistics& statistics) {
                 1e6 * c.mean_time);
 }
 
-/// @returns whether the motion of everything is reproducible to the end
+/// @returns whether the motion of everything is known to be reproducible to the end
 bool print_accuracy(const hydrodae::RunStatistics& statistics) {
   const hydrodae::accuracy::Estimate& estimate = statistics.accuracy;
   if (statistics.at_rest) {
@@ -117,7 +117,7 @@ bool print_accuracy(const hydrodae::RunStatistics& statistics) {
                     ? (" after t = " + hydrodae::rounded_text(estimate.until) + " s").c_str()
                     : "",
                 estimate.missing.c_str());
-  bool all = true;
+  bool all = estimate.missing.empty() && !estimate.movers.empty();
   for (const hydrodae::accuracy::MoverError& m : estimate.movers)
     if (std::isfinite(m.parted)) {
       const bool reproducible = !std::isfinite(m.reproducible_until);
@@ -153,7 +153,7 @@ ExitCode run(const hydrodae::model::Scene& scene, const Arguments& arguments) {
   print_controllers(statistics);
   if (statistics.status == "interrupted")
     return ExitCode::interrupted;
-  return arguments.strict && !reproducible ? ExitCode::not_reproducible : ExitCode::done;
+  return arguments.options.strict && !reproducible ? ExitCode::not_reproducible : ExitCode::done;
 }
 
 ExitCode perform(const Arguments& arguments) {

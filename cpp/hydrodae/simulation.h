@@ -78,6 +78,8 @@ struct RunOptions {
   double checkpoint = -1.0;
   /// Goes on from the checkpoint; the results then hold the whole run.
   bool resume = false;
+  /// Whoever asks needs an estimate of the error: a scene without one is refused.
+  bool strict = false;
 };
 
 /// Integrates the scene from 0 to its end time and writes `output_path` (no file if empty), which

@@ -12,13 +12,19 @@ py::object error_type(const char* name) {
   return py::module_::import("hydrodae.errors").attr(name);
 }
 
+/// Text of a message, which may repeat bytes of a file that are not UTF-8.
+py::str text(const std::string& bytes) {
+  return py::reinterpret_steal<py::str>(PyUnicode_DecodeUTF8(
+      bytes.data(), static_cast<Py_ssize_t>(bytes.size()), "backslashreplace"));
+}
+
 void raise(const char* type, const std::exception& error) {
-  py::set_error(error_type(type), error.what());
+  py::set_error(error_type(type), text(error.what()));
 }
 
 void raise_solver_error(const SolverError& error) {
   const py::object type = error_type("SolverError");
-  const py::object exception = type(error.what());
+  const py::object exception = type(text(error.what()));
   exception.attr("time") = error.time;
   exception.attr("reason") = std::string(name_of(error.halt.reason));
   exception.attr("subject") = error.halt.subject;
@@ -33,12 +39,12 @@ void raise_solver_error(const SolverError& error) {
 void raise_case_error(const FilePlace& place, const std::string& key, const std::string& fault,
                       const char* message) {
   const py::object type = error_type("CaseError");
-  const py::object exception = type(message);
-  exception.attr("file") = place.file;
+  const py::object exception = type(text(message));
+  exception.attr("file") = text(place.file);
   exception.attr("line") = place.line;
   exception.attr("column") = place.column;
-  exception.attr("key") = key;
-  exception.attr("fault") = fault;
+  exception.attr("key") = text(key);
+  exception.attr("fault") = text(fault);
   py::set_error(type, exception);
 }
 

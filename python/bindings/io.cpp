@@ -33,6 +33,9 @@ void bind_io(py::module_& module) {
       py::arg("scene"), py::arg("paths"),
       "A copy of the scene whose forces have their laws from these shared libraries. Raises "
       "CaseError.");
+  module.def("changed_file", &model::changed_file, py::arg("before"), py::arg("now"),
+             "The first difference between two texts of `Scene.text_of_files` in words; empty: "
+             "none.");
   module.def("check_tables", &io::check_tables, py::arg("text"),
              py::call_guard<py::gil_scoped_release>(),
              "Read the tables of a part of a case, each by itself. Raises CaseError.");

@@ -73,6 +73,27 @@ void bind_model(py::module_& module) {
           [](const Scene& s) { return s.database ? s.database->path : std::string(); },
           "The hydrodynamic database, \"\" without.")
       .def_property_readonly(
+          "files",
+          [](const Scene& s) {
+            std::vector<std::tuple<std::string, std::string, std::string, std::string>> out;
+            for (const model::InputFile& f : s.files)
+              out.emplace_back(f.key, f.name, f.path, f.sha256);
+            return out;
+          },
+          "Files that the case reads: key, path in the case, path as opened, SHA-256.")
+      .def_property_readonly(
+          "text_of_files", [](const Scene& s) { return model::text_of_files(s.files); },
+          "A line 'SHA256 KEY = PATH' for each of them, as results files keep it.")
+      .def(
+          "with_functions",
+          [](const Scene& s, const std::map<std::string, std::string>& digests) {
+            Scene copy = s;
+            for (const auto& [key, digest] : digests)
+              copy.files.push_back({key, "Python function", "", digest});
+            return copy;
+          },
+          py::arg("digests"), "A copy that counts Python functions, by key, among its files.")
+      .def_property_readonly(
           "places",
           [](const Scene& s) {
             std::map<std::string, Place> out;

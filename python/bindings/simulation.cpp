@@ -67,7 +67,8 @@ py::dict as_dict(const RunStatistics& s) {
 
 py::dict run(const model::Scene& scene, const std::string& output, const py::object& callback,
              const Functions& drives, const Functions& forces, const Functions& controllers,
-             const Functions& again, const std::string& verify, double checkpoint, bool resume) {
+             const Functions& again, const std::string& verify, double checkpoint, bool resume,
+             bool strict) {
   PythonProgress progress(callback);
   PythonFunctions functions;
   const model::Scene driven = functions.join(scene, drives, forces, controllers, again);
@@ -78,7 +79,7 @@ py::dict run(const model::Scene& scene, const std::string& output, const py::obj
                           [&](double time, double end_time) {
                             return !functions.failed() && progress(time, end_time);
                           },
-                          {verify, checkpoint, resume});
+                          {verify, checkpoint, resume, strict});
   } catch (const ModelError& error) {
     functions.raise_failure();
     throw model::located(scene, error);
@@ -130,7 +131,7 @@ void bind_simulation(py::module_& module) {
       "simulate", &run, py::arg("scene"), py::arg("output"), py::arg("progress"), py::arg("drives"),
       py::arg("forces") = Functions{}, py::arg("controllers") = Functions{},
       py::arg("again") = Functions{}, py::arg("verify") = "", py::arg("checkpoint") = -1.0,
-      py::arg("resume") = false,
+      py::arg("resume") = false, py::arg("strict") = false,
       "Run `scene` and write `output`; `progress(t, t_end)` returns False to stop;\n"
       "`drives` has a function t -> (f, f', f'') for every constraint in "
       "`scene.python_drives`;\n"
@@ -140,7 +141,8 @@ void bind_simulation(py::module_& module) {
       "`again`: those of `controllers` that a second run may call, by name;\n"
       "`verify`: method of the second run, by which the error is estimated; empty: the same;\n"
       "`checkpoint`: wall time between checkpoints [s], negative: none; `resume`: goes on "
-      "from one.\n\n"
+      "from one;\n"
+      "`strict`: an estimate of the error is needed.\n\n"
       "Returns the status (\"completed\" or \"interrupted\") and the statistics of the "
       "solver. Raises\nSolverError when the integration fails; the file then holds what was "
       "computed.");

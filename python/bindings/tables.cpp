@@ -74,12 +74,13 @@ void bind_tables(py::module_& module) {
           out["adapts"] = m.adapts;
           out["fixes"] = m.fixes;
           out["limits_order"] = m.limits_order;
+          out["takes_radius"] = m.takes_radius;
           list.append(out);
         }
         return list;
       },
       "Every integrator: name, orders that it may be given, whether it adapts its steps, fixes "
-      "them, and has a highest order.");
+      "them, has a highest order, and takes a spectral radius.");
   module.def(
       "suggestion",
       [](const std::string& wanted, const std::vector<std::string>& names) {

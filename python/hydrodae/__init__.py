@@ -13,7 +13,15 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from hydrodae.errors import CaseError, DatabaseError, HydrodaeError, RunInterrupted, SolverError
+from hydrodae.errors import (
+    CaseError,
+    DatabaseError,
+    HydrodaeError,
+    NotReproducible,
+    RunInterrupted,
+    RunWarning,
+    SolverError,
+)
 
 if TYPE_CHECKING:
     from hydrodae import hdb, mooring
@@ -52,9 +60,11 @@ __all__ = [
     "Catenary",
     "DatabaseError",
     "HydrodaeError",
+    "NotReproducible",
     "Results",
     "ResultsError",
     "RunInterrupted",
+    "RunWarning",
     "Scene",
     "Simulation",
     "SolverError",

@@ -41,6 +41,14 @@ class Scene:
     def database_path(self) -> str:
         """The hydrodynamic database, "" without."""
     @property
+    def files(self) -> list[tuple[str, str, str, str]]:
+        """Files that the case reads: key, path in the case, path as opened, SHA-256."""
+    @property
+    def text_of_files(self) -> str:
+        """A line 'SHA256 KEY = PATH' for each of them, as results files keep it."""
+    def with_functions(self, digests: Mapping[str, str]) -> Scene:
+        """A copy that counts Python functions, by key, among its files."""
+    @property
     def places(self) -> dict[str, tuple[str, int, int]]:
         """Where each key stands: key path -> (file, line, column)."""
     def with_places(self, places: Mapping[str, tuple[str, int, int]]) -> Scene:
@@ -51,10 +59,13 @@ def tables() -> list[dict[str, Any]]:
     """Every table of a case file with its keys, as nested dicts."""
 
 def methods() -> list[dict[str, Any]]:
-    """Every integrator: name, orders, adapts, fixes, limits_order."""
+    """Every integrator: name, orders, adapts, fixes, limits_order, takes_radius."""
 
 def suggestion(wanted: str, names: Sequence[str]) -> str:
     """The end of a message about an unknown name: the nearest one and all that are valid."""
+
+def changed_file(before: str, now: str) -> str:
+    """The first difference between two texts of `Scene.text_of_files` in words; empty: none."""
 
 def check_tables(text: str) -> None:
     """Read the tables of a part of a case, each by itself. Raises CaseError."""
@@ -104,6 +115,9 @@ def catenary(
     weight: Sequence[float],
     stiffness: Sequence[float],
     loads: Sequence[float],
+    dry_weight: Sequence[float],
+    dry_loads: Sequence[float],
+    surface: float,
     seabed: bool,
     friction: float,
     points: Sequence[float],
@@ -161,6 +175,7 @@ def simulate(
     verify: str = "",
     checkpoint: float = -1.0,
     resume: bool = False,
+    strict: bool = False,
 ) -> dict[str, Any]:
     """Run `scene` and write `output`; `progress(t, t_end)` returns False to stop.
 
@@ -169,7 +184,8 @@ def simulate(
     `controllers` a function t, inputs ... -> outputs for every one in `scene.python_controllers`;
     `again`: those of `controllers` that a second run may call, by name; `verify`: method of the
     second run, by which the error is estimated, "": the same; `checkpoint`: wall time between
-    checkpoints [s], negative: none; `resume`: goes on from one.
+    checkpoints [s], negative: none; `resume`: goes on from one;
+    `strict`: an estimate of the error is needed.
     Returns the status ("completed" or "interrupted") and the statistics of the solver. Raises
     SolverError when the integration fails; the file then holds what was computed.
     """

@@ -153,6 +153,26 @@ class SolverError(HydrodaeError, RuntimeError):
     results: Any = None
 
 
+class NotReproducible(HydrodaeError):
+    """A strict run is completed, but its motion is not known to be reproducible to the end.
+
+    Attributes
+    ----------
+    results : hydrodae.Results
+        Of the whole run.
+    """
+
+    results: Any = None
+
+
+class ResultsWarning(UserWarning):
+    """The results that are read are not those of the last run, or not all of them."""
+
+
+class RunWarning(UserWarning):
+    """A completed run is not reproducible to its end, or its case looks wrong."""
+
+
 class RunInterrupted(HydrodaeError):
     """The run was stopped by the user, or by a controller that is another program or an FMU.
 

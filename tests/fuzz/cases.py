@@ -16,7 +16,6 @@ from tests.fuzz.values import TEXTS, anything, case_text, near, number, toml
 
 Tables = dict[str, Any]
 ROOT = Path(__file__).resolve().parents[2]
-TOO_LARGE = ("n_four_bar_40", "n_four_bar_160", "n_four_bar_500")
 LISTS = ("body", "joint", "constraint", "marker", "force", "morison", "wave", "gauge")
 
 
@@ -49,8 +48,6 @@ def collect(databases: Path) -> Corpus:
     ]
     found = []
     for path in paths:
-        if path.stem in TOO_LARGE:
-            continue
         tables = tomllib.loads(path.read_text(encoding="utf-8"))
         if "hydro" in tables:
             folder = ROOT / "cases" / "sphere" if "fuzz" in path.parts else path.parent

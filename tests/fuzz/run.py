@@ -3,9 +3,11 @@
     bash tests/fuzz/run.sh [--seconds 600] [--seed 1] [--inputs 10000]
 
 Input k of a seed is always the same: a case (alone or with a command line), a case with a mutated
-database, or a results file. C++ reads, checks and runs them under sanitizers (worker.cpp), Python
-reads files (reader.py). A fault is what ends a process, takes longer than a limit, or ends with a
-code other than 0, 2, 3 and 4; it is kept in build/fuzz with the words that repeat it.
+database or mesh, a results file, a database of another program (tables.py), a folder of WEC-Sim
+(wecsim.py), or a study, a journal of a sweep, a record or a checkpoint (files.py). C++ reads,
+checks and runs cases under sanitizers (worker.cpp), Python reads files (reader.py). A fault is what
+ends a process, takes longer than a limit, or ends with a code other than 0, 2, 3 and 4; it is kept
+in build/fuzz with the words that repeat it.
 
 HDF5 1.10 itself reads and writes beyond its memory on some damaged files. Databases have a process
 each, so that what they spoil is not found later elsewhere, and what ends inside the library is
@@ -31,7 +33,7 @@ from random import Random
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from tests.fuzz import cases, hdf5, values  # noqa: E402
+from tests.fuzz import cases, files, hdf5, meshes, tables, values, wecsim  # noqa: E402
 
 DOCUMENTED = (0, 2, 3, 4)
 PATIENCE = 900.0  # s of wall time; workers count processor time themselves
@@ -120,6 +122,7 @@ class Fuzz:
 
     corpus: cases.Corpus
     results: list[Path]
+    sources: list[Path]
     program: str
     seed: int
     until: float
@@ -127,6 +130,7 @@ class Fuzz:
     base: Path
     folder: Path
     kinds: tuple[str, ...]
+    places: dict[str, Path]
     answers: Counter[str] = field(default_factory=Counter)
     faults: list[str] = field(default_factory=list)
     lock: threading.Lock = field(default_factory=threading.Lock)
@@ -169,19 +173,30 @@ class Fuzz:
             shutil.copy(random.choice(self.results), path)
             hdf5.mutate(path, random)
             return [(kind, "reader", f"results {path}")]
-        if kind == "database":
+        if kind in files.KINDS:
+            path = files.mutated(kind, self.places, place, random)
+            return [(kind, "reader", f"{kind} {path}")]
+        if kind == "tables":
+            return [(kind, "reader", f"tables {tables.mutated(self.sources, place, random)}")]
+        if kind == "wecsim":
+            wecsim.write(place, random)
+            return [(kind, "reader", f"wecsim {place}")]
+        if kind == "mesh":
+            text, path = meshes.mutated(place, random)
+            requests = [(kind, "reader", f"mesh {path}")]
+        elif kind == "database":
             wet = [c for c in self.corpus.cases if "hydro" in c]
-            tables = dict(random.choice(wet))
-            source = Path(tables["hydro"]["database"])
+            case = dict(random.choice(wet))
+            source = Path(case["hydro"]["database"])
             if source.stat().st_size > 200_000 and random.random() < 0.8:
-                tables = dict(wet[0])  # a large one takes long
-                source = Path(tables["hydro"]["database"])
+                case = dict(wet[0])  # a large one takes long
+                source = Path(case["hydro"]["database"])
             shutil.copy(source, place / "hydro.h5")
             hdf5.mutate(place / "hydro.h5", random)
             how = random.choice(("exponential", "exponential", "none", "constant", "convolution"))
-            tables["hydro"] = {**tables["hydro"], "database": "hydro.h5", "radiation": how}
-            tables["solver"] = {**tables["solver"], "end_time": 2.0}
-            text = values.case_text(tables)
+            case["hydro"] = {**case["hydro"], "database": "hydro.h5", "radiation": how}
+            case["solver"] = {**case["solver"], "end_time": 2.0}
+            text = values.case_text(case)
             requests = [(kind, "reader", f"database {place / 'hydro.h5'}")]
         else:
             text, requests = cases.mutated(self.corpus, random), []
@@ -251,7 +266,10 @@ def main() -> int:
     parser.add_argument("--first", type=int, default=0, help="number of the first input")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--program", default=str(ROOT / "build/tests/tests/fuzz/hydrodae-fuzz"))
-    parser.add_argument("--kinds", default="case,case,command,database,results")
+    parser.add_argument(
+        "--kinds",
+        default="case,case,command,database,mesh,results,tables,wecsim," + ",".join(files.KINDS),
+    )
     options = parser.parse_args()
     folder = ROOT / "build" / "fuzz"
     (folder / "faults").mkdir(parents=True, exist_ok=True)
@@ -261,6 +279,7 @@ def main() -> int:
         fuzz = Fuzz(
             cases.collect(base),
             make_results(base),
+            tables.collect(base),
             options.program,
             options.seed,
             start + options.seconds,
@@ -268,6 +287,7 @@ def main() -> int:
             base,
             folder,
             tuple(options.kinds.split(",")),
+            files.prepare(base),
         )
         for number in range(options.first, options.first + options.inputs):
             fuzz.numbers.put(number)

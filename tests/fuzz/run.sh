@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Mutated case files, command lines, hydrodynamic databases and results files, under sanitizers:
+# Mutated case files, command lines, hydrodynamic databases, results files and runs of WEC-Sim,
+# under sanitizers:
 #   bash tests/fuzz/run.sh [--seconds 600] [--seed 1] [--inputs 10000]
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../../cases/environment.sh"

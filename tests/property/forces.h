@@ -171,6 +171,11 @@ inline void add_every_force(model::Scene& scene, Random& random, bool late = fal
             if (presses)
               list.push_back(pressed_friction<Law>(random));
           }
+          if constexpr (std::is_same_v<Law, line::CatenaryLine>)
+            for (Law& law : list) { // a part that floats would lie on the surface
+              law.weight = {1.5 + 0.5 * random(), 2.0 + random()};
+              law.dry_weight = {2.5, 3.5};
+            }
           if constexpr (std::is_same_v<Law, line::Line>)
             list = random_lines(random);
           if constexpr (std::is_same_v<Law, line::Rope>)

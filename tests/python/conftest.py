@@ -153,6 +153,7 @@ class Kernel:
         verify: str = "",
         checkpoint: float = -1.0,
         resume: bool = False,
+        strict: bool = False,
     ) -> dict[str, Any]:
         assert not drives
         assert not forces

@@ -101,7 +101,11 @@ def held(force: dict[str, Any]) -> hydrodae.Catenary:
         force["weight"],
         force["stiffness"],
         loads=force.get("loads", ()),
+        dry_weight=force.get("dry_weight"),
+        dry_loads=force.get("dry_loads", ()),
+        surface=-force["point_a"][2],
         seabed=force.get("seabed", True),
+        friction=force.get("friction", 0.0),
     )
 
 
@@ -187,4 +191,45 @@ ID   LineType   AttachA  AttachB  UnstrLen  NumSegs  LineOutputs
 --- OPTIONS ---
 1000    rho        density
 300     WtrDpth    depth
+"""
+#: A buoyant float between two chains, MoorDyn's version 2.
+FLOAT = """A float of 120 m3 at the surface
+--- LINE TYPES ---
+TypeName Diam Mass/m EA BA/-zeta EI Cd Ca CdAx CaAx
+(name) (m) (kg/m) (N) (N-s/-) (N-m^2) (-) (-) (-) (-)
+chain 0.12 180.0 6.0e8 -1.0 0 1.2 1.0 0.2 0.0
+--- POINTS ---
+ID Attachment X Y Z M V CdA CA
+(#) (-) (m) (m) (m) (kg) (m^3) (m^2) (-)
+1 Fixed -600 0 -150 0 0 0 0
+2 Free -300 0 -40 500 120 0 0
+3 Free -200 0 -60 0 0 0 0
+4 Coupled -20 0 -10 0 0 0 0
+--- LINES ---
+ID LineType AttachA AttachB UnstrLen NumSegs Outputs
+(#) (name) (#) (#) (m) (-) (-)
+1 chain 1 2 330 40 p
+2 chain 2 3 100 8 p
+3 chain 3 4 260 40 p
+--- OPTIONS ---
+150 WtrDpth
+"""
+#: One chain that lies on a bed with friction.
+LYING = """A chain on a bed with friction
+--- LINE TYPES ---
+TypeName Diam Mass/m EA BA/-zeta EI Cd Ca CdAx CaAx
+(name) (m) (kg/m) (N) (N-s/-) (N-m^2) (-) (-) (-) (-)
+chain 0.12 180.0 6.0e8 -1.0 0 1.2 1.0 0.2 0.0
+--- POINTS ---
+ID Attachment X Y Z M V CdA CA
+(#) (-) (m) (m) (m) (kg) (m^3) (m^2) (-)
+1 Fixed -600 0 -150 0 0 0 0
+2 Coupled -20 0 -10 0 0 0 0
+--- LINES ---
+ID LineType AttachA AttachB UnstrLen NumSegs Outputs
+(#) (name) (#) (#) (m) (-) (-)
+1 chain 1 2 610 100 p
+--- OPTIONS ---
+0.7 FrictionCoefficient
+150 WtrDpth
 """

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
@@ -104,6 +105,45 @@ def test_a_stopped_run_goes_on(case: Path, tmp_path: Path) -> None:
         now["bodies/ball/position"], whole["bodies/ball/position"].values, atol=1e-4
     )
     assert not output.with_suffix(".checkpoint.h5").exists()
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_the_run_in_order(case: Path, tmp_path: Path, number: signal.Signals) -> None:
+    case.write_text(CASE.replace("end_time = 3.0", "end_time = 1e6"))
+    output, temporary = tmp_path / "out.h5", tmp_path / "temporary"
+    temporary.mkdir()
+    command = [sys.executable, "-m", "hydrodae", "run", str(case), "-q", "-o", str(output)]
+    process = subprocess.Popen(
+        [*command, "--checkpoint", "1e9"], env={**os.environ, "TMPDIR": str(temporary)}
+    )
+    partial = output.with_suffix(".partial.h5")
+    deadline = time.monotonic() + 60.0
+    while not (partial.exists() and partial.stat().st_size) and time.monotonic() < deadline:
+        time.sleep(0.01)
+    time.sleep(0.3)
+    process.send_signal(number)
+    assert process.wait(60.0) == 4
+    assert hydrodae.Results(output).status == "interrupted"
+    assert output.with_suffix(".checkpoint.h5").exists()
+    assert list(temporary.iterdir()) == []
+
+
+@pytest.mark.parametrize("verify", ["", "radau"])
+def test_a_resumed_run_keeps_its_estimate(case: Path, tmp_path: Path, verify: str) -> None:
+    """Over all samples, and as large as without the stop but for where the methods started."""
+    output = tmp_path / "out.h5"
+    how: dict[str, Any] = {"verify": verify, "set": {"solver.rtol": 1e-5}}
+    with pytest.raises(RunInterrupted):
+        hydrodae.run(case, output, checkpoint=1e9, progress=lambda t, _: t < 2.0, **how)
+    resumed = hydrodae.run(case, output, resume=True, set=how["set"])
+    whole = hydrodae.run(case, tmp_path / "whole.h5", **how)
+    a, b = resumed.accuracy()["ball"], whole.accuracy()["ball"]
+    np.testing.assert_array_equal(a.time, b.time)
+    before = b.time <= 2.0
+    np.testing.assert_allclose(a.error[before], b.error[before], rtol=1e-6, atol=1e-12)
+    assert 0.1 < a.error.max() / b.error.max() < 10.0
+    assert resumed.statistics["accuracy"] == whole.statistics["accuracy"]
+    assert not resumed.statistics["accuracy_missing"]
 
 
 def test_a_resume_that_is_killed_can_be_resumed(case: Path, tmp_path: Path) -> None:

@@ -170,9 +170,8 @@ def test_long_run_prints_plain_lines_now_and_then(monkeypatch, capsys):
 def test_long_run_in_a_terminal_shows_a_bar(monkeypatch):
     stream = io.StringIO()
     monkeypatch.setattr(progress, "monotonic", Clock())
-    monkeypatch.setattr(
-        progress, "Console", lambda **_: Console(file=stream, force_terminal=True, width=100)
-    )
+    console = Console(file=stream, force_terminal=True, width=100)
+    monkeypatch.setattr("rich.console.Console", lambda **_: console)
     with ProgressLine("Flap decay") as line:
         line(10.0, 100.0)
         line(55.0, 100.0)

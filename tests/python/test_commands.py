@@ -8,6 +8,7 @@ import subprocess
 import sys
 
 import pytest
+from tests.scenes import four_bar_windows
 
 import hydrodae
 from hydrodae.commands import cli
@@ -151,8 +152,8 @@ def test_lines_that_are_alike_are_grouped() -> None:
     assert grouped(few) == few
 
 
-def test_check_of_a_long_chain_fits_on_a_page(repository, capsys) -> None:
-    case = str(repository / "cases" / "benchmarks" / "n_four_bar_40.toml")
+def test_check_of_a_long_chain_fits_on_a_page() -> None:
+    case = hydrodae.Case.from_text(four_bar_windows(40))
     text = hydrodae.check(case)
     assert len(text.splitlines()) < 50
     assert len(hydrodae.check(case, every_line=True).splitlines()) > 300

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -12,6 +14,7 @@ import pytest
 from tests.python.small_database import CASE, write_case
 
 from hydrodae import _core
+from hydrodae.starters import create
 
 
 @pytest.fixture
@@ -120,3 +123,16 @@ def test_an_interrupt_is_exit_code_4(executable, case):
     with h5py.File(output) as file:
         assert file.attrs["status"] == "interrupted"
         assert len(file["time"]) > 1
+
+
+def test_the_memory_does_not_grow_with_the_length_of_a_run(executable, tmp_path):
+    case = create("flap", tmp_path / "flap")
+    peaks = []
+    for end in (500, 10000):
+        words = [executable, str(case), "--quiet", "-o", str(tmp_path / "r.h5")]
+        run = subprocess.Popen([*words, "--set", f"solver.end_time={end}"])
+        _, status, usage = os.wait4(run.pid, 0)
+        run.returncode = os.waitstatus_to_exitcode(status)
+        assert run.returncode == 0
+        peaks.append(usage.ru_maxrss / (1e6 if sys.platform == "darwin" else 1e3))  # MB
+    assert peaks[1] < peaks[0] + 16.0, peaks  # tables over the whole time: 120 MB more

@@ -79,3 +79,26 @@ def test_standard_output_that_is_full_is_told(case, executable, tmp_path, way):
     assert run.returncode == 2
     assert len(run.stderr.strip().splitlines()) == 1
     assert Results.read(tmp_path / "out.h5").status == "completed"
+
+
+def test_a_page_that_does_not_fit_is_named_and_leaves_the_older_one(tmp_path):
+    page = tmp_path / "page.html"
+    page.write_text("older")
+    script = (
+        "from pathlib import Path\n"
+        "from hydrodae.commands.cli import guarded\n"
+        "from hydrodae.support import outputs\n"
+        f"code = guarded(lambda: outputs.write_text(Path({str(page)!r}), 'x' * 100_000))\n"
+        "raise SystemExit(code)\n"
+    )
+    run = subprocess.run(
+        [sys.executable, "-c", script],
+        check=False,
+        capture_output=True,
+        text=True,
+        preexec_fn=limited(20),
+    )
+    assert run.returncode == 2
+    assert run.stderr == f"hydrodae: {page}: File too large\n"
+    assert [path.name for path in tmp_path.iterdir()] == ["page.html"]
+    assert page.read_text() == "older"

@@ -138,6 +138,23 @@ def test_tonnes_in_the_numeric_file(reference, tmp_path):
         np.testing.assert_allclose(ours, theirs, atol=1e-4 * np.abs(theirs).max())
 
 
+def test_added_mass_at_infinity_of_each_structure_alone(reference, tmp_path):
+    """Blocks 1 1 and 2 2 without 1 2 are no A_inf: as if the section was not there."""
+    lines = (reference / "hdb" / "rm3_aqwa" / "RM3.AH1").read_text().splitlines()
+    start = lines.index("ADDEDMASS_HF") + 1
+    path = tmp_path / "RM3.AH1"
+    path.write_text("\n".join(lines[: start - 1] + lines[start + 24 :]))
+    without = hdb.read(tmp_path)
+    path.write_text("\n".join(lines[: start + 6] + lines[start + 18 :]))
+    alone, report = hdb.import_database(tmp_path)
+    np.testing.assert_array_equal(alone.added_mass_inf, without.added_mass_inf)
+    finding = report.find("added_mass_inf of the source")[0]
+    assert "each structure alone" in finding.message
+    path.write_text("\n".join(lines[: start + 6] + lines[start + 12 :]))
+    with refused("shape", "ADDEDMASS_HF"):
+        hdb.read(tmp_path)
+
+
 def test_structures_without_interaction_are_told(tmp_path):
     data = read_source(listing(tmp_path / "apart.LIS", coupled=False))
     assert not data.added_mass[:, :6, 6:].any()

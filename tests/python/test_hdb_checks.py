@@ -225,6 +225,21 @@ def test_hydrostatics_that_do_not_belong_to_the_forces(sphere, factor, check, se
     assert hdb.check(wrong).find(check)[0].severity == severity
 
 
+def test_rotations_without_added_mass_are_judged(sphere):
+    """Surge and sway couple with roll and pitch, whose own added mass is zero."""
+    wrong = sphere.added_mass_inf.copy()
+    wrong[3:5] = wrong[:, 3:5] = 0.0
+    wrong[[0, 1, 3, 4], [3, 4, 0, 1]] = 1e4
+    assert str(hdb.check(dataclasses.replace(sphere, added_mass_inf=wrong)))
+
+
+def test_a_body_that_displaces_nothing_is_an_error(sphere):
+    name, body = next(iter(sphere.bodies.items()))
+    statics = dataclasses.replace(body.hydrostatics, displaced_volume=0.0)
+    report = hdb.check(sphere.with_hydrostatics({name: statics}))
+    assert report.find("displacement")[0].severity == "error"
+
+
 def test_truncated_tables_are_noticed(sphere):
     def cut(low, high):
         keep = (sphere.omega >= low) & (sphere.omega <= high)

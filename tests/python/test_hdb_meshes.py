@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import contextlib
 import struct
 
 import numpy as np
 import pytest
 from tests.errors import refused
 
-from hydrodae.errors import CaseError
+from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.bem import shapes
 from hydrodae.hdb.bem.cutting import immersed
 from hydrodae.hdb.bem.lids import lid, water_line
 from hydrodae.hdb.bem.revolution import read_profile, revolution
+from hydrodae.hdb.hull.closed import closed_surface
 from hydrodae.hdb.hull.meshes import mirrored, read_mesh
 
 POINT = np.array([1.0, 2.0, -3.0])
@@ -306,6 +308,32 @@ def test_bad_mesh_files_name_file_and_line(tmp_path, name, line, text, reason, s
     path.write_text("\n".join(lines))
     with refused(reason, subject, file=name, line=at):
         read_mesh(path)
+
+
+@pytest.mark.parametrize("name", list(WRITERS))
+@pytest.mark.parametrize("far", [1e290, 1e200, 1e30, 1e8])
+def test_a_vertex_far_away_is_refused(tmp_path, monkeypatch, name, far):
+    if name == "b.stl" and far > 1e38:
+        return  # numbers of 4 bytes
+    corner = np.array([2.0, 1.0, 0.0])
+    moved = np.where(PANELS == corner, far * PANELS, PANELS)
+    monkeypatch.setitem(
+        globals(), "PANELS", np.where((PANELS == corner).all(-1)[..., None], moved, PANELS)
+    )
+    WRITERS[name](tmp_path / name)
+    with pytest.raises(DatabaseError, match=r"too far|encloses no|not closed|misplaced|no open"):
+        closed_surface(read_mesh(tmp_path / name), freeboard=1.0)
+
+
+@pytest.mark.parametrize("name", list(WRITERS))
+def test_a_mesh_file_that_breaks_off_is_refused_or_read(tmp_path, name):
+    path = tmp_path / name
+    WRITERS[name](path)
+    whole = path.read_bytes()
+    for size in range(0, len(whole), max(1, len(whole) // 60)):
+        path.write_bytes(whole[:size])
+        with contextlib.suppress(DatabaseError):
+            assert np.isfinite(read_mesh(path)).all()
 
 
 def test_other_files_are_refused(tmp_path):

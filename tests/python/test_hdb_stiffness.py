@@ -1,4 +1,4 @@
-"""Hydrostatics from a 6 x 6 matrix in a file."""
+"""Hydrostatics from 6 x 6 matrices in files, of another density or of some motions only."""
 
 from __future__ import annotations
 
@@ -6,7 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 from tests.errors import refused
+from tests.python.nemoh_writer import NemohFolder
 
 from hydrodae import hdb
 from hydrodae.commands import cli
@@ -92,3 +94,76 @@ def test_what_is_missing_is_said(
     file.write_text(rows(np.eye(6)[:4]))
     with refused("shape", file="stiffness.txt"):
         read_stiffness(file)
+
+
+BOXES = ((4.0, 2.0, 1.0), (6.0, 3.0, 2.0))  #: Length, width and draught of two boxes [m].
+
+
+def box_stiffness(size: tuple[float, float, float], weight: float) -> np.ndarray:
+    """Stiffness of a box about its waterline, for a specific weight [N/m3]: its closed form."""
+    length, width, draught = size
+    area, lever = length * width, -0.5 * draught * length * width * draught
+    k = np.zeros((6, 6))
+    k[[2, 3, 4], [2, 3, 4]] = area, area * width**2 / 12 + lever, area * length**2 / 12 + lever
+    return weight * k
+
+
+def nemoh_boxes(folder: Path, densities: tuple[float, ...]) -> Path:
+    """A run in water of 1000 kg/m3, each stiffness with a density of its own."""
+    made = NemohFolder(bodies=len(densities))
+    written = Path(made.write(folder))
+    for i, (size, density) in enumerate(zip(BOXES, densities, strict=False)):
+        end = "" if len(densities) == 1 else f"_{i}"
+        np.savetxt(written / f"KH{end}.dat", box_stiffness(size, density * made.gravity))
+        (written / f"Hydrostatics{end}.dat").write_text(
+            " XF =   0.000 - XG =   0.000\n YF =   0.000 - YG =   0.000\n"
+            f" ZF =  {-0.5 * size[2]:.4f} - ZG =   0.000\n"
+            f" Displacement = {np.prod(size):.7E}\n Waterplane area = {size[0] * size[1]:.7E}\n"
+        )
+    return written
+
+
+@pytest.mark.parametrize("densities", [(1025.0,), (975.61,), (1025.0, 1025.0)])
+def test_a_stiffness_of_another_density_is_scaled(
+    tmp_path: Path, densities: tuple[float, ...]
+) -> None:
+    """Nemoh's mesher has a density of its own; the waterplane shows it."""
+    db, report = hdb.import_database(nemoh_boxes(tmp_path / "run", densities))
+    at = (0.0, 0.0, 0.0)
+    for name, size in zip(db.bodies, BOXES, strict=False):
+        statics = db.moved_to({name: at}).hydrostatic_stiffness(name)
+        np.testing.assert_allclose(statics, box_stiffness(size, 9810.0), atol=1e-6 * 9810.0)
+    finding = report.find("hydrostatics")[0]
+    assert finding.severity == "warning"
+    assert finding.value == pytest.approx(densities[0], rel=1e-6)
+
+
+@pytest.mark.parametrize("densities", [(800.0,), (1025.0, 1010.5)])
+def test_no_density_is_told_where_none_explains_the_stiffness(
+    tmp_path: Path, densities: tuple[float, ...]
+) -> None:
+    with refused("conflict", "K33"):
+        hdb.read(nemoh_boxes(tmp_path / "run", densities))
+
+
+@pytest.mark.parametrize("moves", [["Heave"], ["Surge", "Heave", "Pitch"], ["Roll"], ["Surge"]])
+def test_some_motions_have_the_hydrostatics_of_these(
+    sphere_file: Path, tmp_path: Path, moves: list[str]
+) -> None:
+    """A file of Capytaine with a part of the motions: the same stiffness as in the whole one."""
+    with xr.open_dataset(sphere_file) as opened:
+        whole = opened.load()
+    full = hdb.read(sphere_file)
+    labels = {str(d).rpartition("__")[2].lower(): d for d in whole["influenced_dof"].values}
+    kept = [labels[m.lower()] for m in moves]
+    path = tmp_path / "sphere.nc"
+    whole.sel(influenced_dof=kept, radiating_dof=kept).to_netcdf(path, engine="netcdf4")
+    part, report = hdb.import_database(path)
+    name = next(iter(part.bodies))
+    at = [full.labels[full.index([c])[0]].dof for c in part.coordinates]
+    ours, theirs = (d.hydrostatic_stiffness(name)[np.ix_(at, at)] for d in (part, full))
+    np.testing.assert_allclose(ours, theirs, atol=1e-9 * np.abs(theirs).max() + 1e-9)
+    statics = part.bodies[name].hydrostatics
+    assert statics is not None
+    assert statics.displaced_volume == pytest.approx(2.0 / 3.0 * np.pi * 125.0)
+    assert not report.of("error")

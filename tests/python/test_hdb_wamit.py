@@ -125,6 +125,32 @@ def test_errors_name_file_and_line(tmp_path, file, line, text, reason):
         hdb.read(path, rho=1000.0)
 
 
+def test_rows_of_the_stiffness_beyond_the_modes_of_the_run(reference, tmp_path):
+    """A whole table may hold more; one whose index is garbled has a gap."""
+    folder = tmp_path / "run"
+    shutil.copytree(reference / "hdb" / "sphere_wamit", folder)
+    path = folder / "sphere.hst"
+    before, rows = hdb.read(folder), path.read_text()
+    more = [f" {i:5d} {j:5d} 1.0E+00" for i in range(1, 9) for j in range(1, 9) if max(i, j) > 6]
+    path.write_text(rows + "\n".join(more) + "\n")
+    after = hdb.read(folder)
+    np.testing.assert_array_equal(
+        after.hydrostatic_stiffness("sphere"), before.hydrostatic_stiffness("sphere")
+    )
+    path.write_text(rows.replace("     3     3 ", "     7     3 "))
+    with refused("label", "modes", file="sphere.hst"):
+        hdb.read(folder)
+
+
+@pytest.mark.parametrize("mode", ["1e308", "1.5", "0"])
+def test_numbers_that_are_no_mode(tmp_path, mode):
+    path = write_run(tmp_path)
+    words = path.read_text().splitlines()[3].split()
+    edit(path, 4, " ".join([words[0], mode, *words[2:]]))
+    with refused("label", "modes", file="run.1"):
+        hdb.read(path, rho=1000.0)
+
+
 def test_an_unknown_first_column_is_refused(tmp_path):
     path = write_run(tmp_path)
     edit(tmp_path / "run.cfg", 1, " IPEROUT=7")

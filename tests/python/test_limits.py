@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from tests.errors import refused, wrong
 
+import hydrodae
 from hydrodae import _core
 from hydrodae.commands import cli
 from hydrodae.errors import CaseError
@@ -140,6 +141,34 @@ def test_steps_that_would_never_come_to_the_end_are_refused(tmp_path, values, ex
     told = refusal(tmp_path, **{key.replace(".", "__"): value for key, value in values.items()})
     assert expected in told
     assert told.startswith("--set " + next(iter(values)))
+
+
+MOORED = """
+environment = { water_density = 1025.0, water_depth = 50.0 }
+solver = { end_time = 0.1 }
+[[body]]
+name = "platform"
+motion = "fixed"
+mass = 1e6
+center_of_gravity = [0, 0, 0]
+[[force]]
+name = "leg"
+type = "TYPE"
+body_a = "ground"
+body_b = "platform"
+point_a = [-100.0, 0.0, -50.0]
+point_b = [0.0, 0.0, -5.0]
+"""
+
+
+def test_catenaries_feel_the_water_and_springs_do_not(tmp_path):
+    path = tmp_path / "case.toml"
+    catenary = "length = [115.0]\nweight = [1000.0]\nstiffness = [1e8]\n"
+    path.write_text(MOORED.replace("TYPE", "catenary") + catenary)
+    assert hydrodae.run(path).status == "completed"
+    path.write_text(MOORED.replace("TYPE", "spring_damper") + "stiffness = 1e5\n")
+    with wrong("environment.water_density"):
+        hydrodae.run(path)
 
 
 def test_the_place_of_a_step_that_is_too_short_is_told(tmp_path):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from tests.python.moordyn_decks import (
     BRIDLE,
     LAZY,
     LOWE_LANGLEY,
+    LYING,
     OLD,
     PLATFORM,
     RM3,
@@ -41,6 +43,8 @@ def test_lines_in_series_become_one_force(
     weight = (126.0 - 1000.0 * math.pi / 4.0 * 0.144**2) * 9.81
     assert first["weight"] == pytest.approx([weight, weight])
     assert first["loads"] == pytest.approx([(16755.0 - 33510.0) * 9.81])
+    assert first["dry_weight"] == pytest.approx([126.0 * 9.81] * 2)
+    assert first["dry_loads"] == pytest.approx([16755.0 * 9.81])
     assert "seabed" not in first
     assert last["point_a"] == [133.5, -231.229, -70.0]
     assert last["point_b"] == pytest.approx([1.5, -2.598, -10.0])
@@ -100,6 +104,31 @@ def test_dynamic_lines_hold_what_the_file_says(tmp_path: Path, heading: int) -> 
     case = hydrodae.Case.from_text(text + out.read_text())
     tension = float(hydrodae.Simulation(case).read(f"forces/{force['name']}/tension"))
     assert tension == pytest.approx(held(at_rest.forces[heading]).tension, rel=0.02)
+
+
+def test_friction_of_a_seabed_is_zero_at_rest(tmp_path: Path) -> None:
+    """MoorDyn 2.7 has 974.3 and 1202.2 kN after 200 s, MoorPy without friction 974.6 and 1205.5."""
+    imported = hydrodae.mooring.read_moordyn(written(tmp_path, LYING))
+    line = held(imported.forces[0])
+    assert line.tension_anchor == pytest.approx(974.6e3, rel=1e-4)
+    assert line.tension == pytest.approx(1205.5e3, rel=1e-4)
+    assert any("friction of the seabed 0.7" in note for note in imported.notes)
+
+
+@pytest.mark.parametrize("kind", ["catenary", "line"])
+@pytest.mark.parametrize("ends", ["Fixed", "Coupled"])
+def test_lines_between_points_of_one_body_or_of_the_ground_are_kept(
+    tmp_path: Path, kind: Literal["catenary", "line"], ends: str
+) -> None:
+    """The jumper of Lowe and Langley: 45.71 kN upwards at B, wherever its ends belong."""
+    text = LOWE_LANGLEY.replace("Coupled", ends).replace("Fixed", ends)
+    imported = hydrodae.mooring.read_moordyn(written(tmp_path, text), type=kind)
+    case = hydrodae.Case.from_text(
+        PLATFORM.replace("1025.0", "1000.0\nwater_depth = 100.0") + imported.to_toml()
+    )
+    tension = float(hydrodae.Simulation(case).read("forces/line1/tension"))
+    assert tension == pytest.approx(1e3 * math.hypot(11.40, 45.71), rel=0.005)
+    assert hydrodae.run(case).time[-1] == 1.0
 
 
 def test_a_force_on_a_point_of_a_dynamic_line_is_refused(tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from scipy.io import savemat
 from tests.python.doc_blocks import blocks, command_lines
-from tests.python.record_files import OMEGA, bretschneider, table, written
+from tests.python.record_files import OMEGA, PEAK, bretschneider, table, written
 
 from hydrodae.commands import cli
 
@@ -108,3 +108,25 @@ def test_the_page_runs(repository, tmp_path, monkeypatch, capsys):
         + _toml({"name": "sea", "type": "measured", "file": "gauge.csv"})
     )
     assert cli.main(["check", "measured/case.toml"]) == 0
+
+
+@pytest.mark.parametrize("head", ["period [s],density [m2/Hz]", "T [s],S [m^2/Hz]"])
+def test_a_spectrum_over_the_period_is_no_elevation(tmp_path, capsys, head):
+    """Bretschneider's of 2 m: densities per Hz, which periods only place."""
+    period = np.linspace(2.2, 30.0, 400)
+    omega = 2.0 * np.pi / period
+    file = written(tmp_path, table(head, period, 2.0 * np.pi * bretschneider(omega)))
+    assert cli.main(["record", str(file)]) == 0
+    high, low = np.exp(-1.25 * (PEAK / omega[[0, -1]]) ** 4)  # of m0 below a frequency
+    assert f"significant height {2.0 * math.sqrt(high - low):.3f} m" in capsys.readouterr().out
+    wrong = ["--kind", "elevation", "--column", head.partition(",")[2], "-o", "x.csv"]
+    assert cli.main(["record", str(file), *wrong]) == 2
+    assert "expected a unit of length" in capsys.readouterr().err
+
+
+def test_time_and_a_letter_stay_an_elevation(tmp_path, capsys):
+    """`T` may be a period and `s` a density, but not in seconds and metres."""
+    time = np.arange(0.0, 30.0, 0.5)
+    file = written(tmp_path, table("t [s],s [m]", time, np.cos(time)))
+    assert cli.main(["record", str(file), "-o", str(tmp_path / "x.csv")]) == 0
+    assert 'type = "measured"' in capsys.readouterr().out

@@ -207,7 +207,7 @@ def test_no_job_at_a_time_is_refused(folder: Path) -> None:
 def test_a_record_of_something_else_is_kept(folder: Path) -> None:
     study = write_study(folder, '[grid]\n"body.float.mass" = [2.0]\n')
     hydrodae.sweep(study, folder / "study.nc", jobs=1)
-    with pytest.raises(hydrodae.CaseError, match="another case"):
+    with pytest.raises(hydrodae.CaseError, match="another case than this study's"):
         hydrodae.sweep(study, folder / "study.nc", set={"solver.end_time": 2.0}, jobs=1)
     (folder / "notes.runs.jsonl").write_text("my notes")
     with pytest.raises(hydrodae.CaseError, match="no record of a sweep"):

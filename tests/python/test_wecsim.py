@@ -220,7 +220,14 @@ def test_what_the_case_does_not_hold_is_listed(two_bodies: Path, tmp_path: Path,
     )
     lines = TWO_BODY_INPUT.count("\n")
     case = str(tmp_path / "case")
-    assert cli.main(["new", case, "--from", "wecsim", str(two_bodies)]) == 0
+    command = ["new", case, "--from", "wecsim", str(two_bodies)]
+    assert cli.main(command) == 2
+    assert "--accept cable --accept controller writes it anyway" in capsys.readouterr().err
+    assert not Path(case).exists()
+    command += ["--accept", "cable", "--accept", "controller"]
+    assert cli.main([*command, "--accept", "current"]) == 2
+    assert "--accept 'current': this is not missing" in capsys.readouterr().err
+    assert cli.main(command) == 0
     out = capsys.readouterr().out
     assert f"wecSimInputFile.m:{lines + 1}: body(1): nonlinear hydrodynamics" in out
     assert f"wecSimInputFile.m:{lines + 2}: body(1).unknownField" in out
@@ -230,6 +237,9 @@ def test_what_the_case_does_not_hold_is_listed(two_bodies: Path, tmp_path: Path,
     assert "model.slx, block 'Rope': Cables Cable" in out
     assert "model.slx, block 'PTO': force of pto(1) from Simulink" in out
     assert f"next: hydrodae run {case}" in out
+    notes = hydrodae.run(Path(case) / "case.toml", set={"solver.end_time": 1.0}).notes
+    for part in ("block 'Rope': Cables Cable", "body(1).unknownField", "force of pto(1)"):
+        assert any(note.startswith("missing in the case: ") and part in note for note in notes)
 
 
 def test_results_beside_a_missing_database_are_read(two_bodies: Path, tmp_path: Path) -> None:

@@ -266,6 +266,24 @@ def test_without_an_estimate_the_reason_is_printed() -> None:
     assert 'error not estimated: solver.accuracy = "none"' in results.summary()
 
 
+def test_a_strict_run_needs_an_estimate(tmp_path: Path) -> None:
+    with pytest.raises(hydrodae.CaseError, match="--strict needs an estimate"):
+        hydrodae.run(pendulum(1.0, 5.0, accuracy="none"), strict=True)
+    case = pendulum(1.0, 5.0).with_values({"output.step": 10.0})  # a single sample
+    with pytest.raises(hydrodae.NotReproducible, match="the error is not estimated"):
+        hydrodae.run(case, strict=True)
+    assert hydrodae.run(pendulum(1.0, 5.0), strict=True).not_reproducible == ""
+
+
+def test_what_is_not_reproducible_is_one_warning() -> None:
+    wild = pendulum(3.1, 60.0).with_values({"solver.rtol": 1e-3})
+    with pytest.warns(hydrodae.RunWarning, match="bob is reproducible until t = "):
+        hydrodae.run(wild)
+    with pytest.raises(hydrodae.NotReproducible, match="bob is reproducible until t = ") as caught:
+        hydrodae.run(wild, strict=True)
+    assert caught.value.results.status == "completed"
+
+
 def test_both_commands_verify_and_are_strict(
     executable: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

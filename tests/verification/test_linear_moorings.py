@@ -84,7 +84,7 @@ method = "{method}"
     [
         (
             "-40.0, 0.0, 0.0",
-            "a buoy, a part that floats, or what is above one, is down on the seabed",
+            "a buoy or a part that floats is down on the seabed",
         ),
         ("0.0, 0.0, -40.0", "m below the seabed"),
     ],

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from tests.scenes import four_bar_windows
 
 import hydrodae
 
@@ -19,7 +20,9 @@ BOB = ("bodies/bob/position", "bodies/bob/velocity")
 HINGES = ("joints/hinge1/angle", "joints/hinge2/angle")
 
 
-def at_end(case: Path, channels: tuple[str, ...], end_time: float, **solver: Any) -> NDArray:
+def at_end(
+    case: Path | hydrodae.Case, channels: tuple[str, ...], end_time: float, **solver: Any
+) -> NDArray:
     """Values of the channels at the end of a run."""
     values = {f"solver.{key}": value for key, value in solver.items()}
     values |= {"solver.end_time": end_time, "output.step": end_time}
@@ -130,7 +133,7 @@ def test_radau_keeps_to_simplified_newton_in_loops(case: str, order: int) -> Non
 
 def test_radau_passes_the_singular_pose_of_forty_loops() -> None:
     """Level uprights at 0.72 s: full Newton steps over them."""
-    case = FOUR_BAR.with_name("n_four_bar_40.toml")
+    case = hydrodae.Case.from_text(four_bar_windows(40))
     channels = ("bodies/up0/position", "bodies/up40/position")
     exact = at_end(case, channels, 1.0, method="explicit_rk", rtol=1e-10)
     values = at_end(case, channels, 1.0, method="radau", rtol=1e-9)
@@ -150,6 +153,8 @@ def test_radau_passes_the_singular_pose_of_forty_loops() -> None:
         ({"method": "explicit_rk", "formulation": "index_2"}, "has its own"),
         ({"baumgarte_time": 1.0}, 'belongs to formulation "index_1"'),
         ({"method": "radau", "max_order": 3}, "belongs to ida; radau takes solver.order"),
+        ({"method": "radau", "spectral_radius": 0.5}, "belongs to generalized_alpha; leave it out"),
+        ({"spectral_radius": 0.5}, "belongs to generalized_alpha; name the method"),
     ],
     ids=str,
 )

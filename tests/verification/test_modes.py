@@ -291,3 +291,83 @@ def test_a_mode_is_no_body_for_joints() -> None:
     with pytest.raises(hydrodae.CaseError) as caught:
         hydrodae.run(scene)
     assert caught.value.key == "joint.pin.body_a"
+
+
+LENGTH, LINE_MASS, BENDING = 4.0, 25.0, 2e5  # m, kg/m, N m2
+#: Of the static shape (x^4 - 4 L x^3 + 6 L^2 x^2) / (3 L^4) of a cantilever: integrals of it and of
+#: its square over the mass, and of E I times its squared curvature.
+SHARE, SHAPE_MASS = 0.4 * LINE_MASS * LENGTH, 104.0 / 405.0 * LINE_MASS * LENGTH
+SHAPE_STIFFNESS = 3.2 * BENDING / LENGTH**3
+
+
+def cantilever(
+    participation: list[float] | None, gravity: float = 9.81, **body: Any
+) -> hydrodae.Scene:
+    """Return a beam along x with the static shape of a cantilever as its mode."""
+    scene = hydrodae.Scene("cantilever")
+    scene.environment(gravity=gravity)
+    scene.body("beam", mass=LINE_MASS * LENGTH, center_of_gravity=[2.0, 0.0, 0.0], **body)
+    more: dict[str, Any] = {} if participation is None else {"participation": participation}
+    scene.mode("bend", body="beam", mass=SHAPE_MASS, stiffness=SHAPE_STIFFNESS, **more)
+    return scene
+
+
+@pytest.mark.parametrize("turn", [0.0, 60.0, 180.0])
+def test_weight_bends_a_cantilever(turn: float) -> None:
+    """The tip sags by q L^4 / (8 E I), cos(turn) of it where the wall is turned about the beam."""
+    scene = cantilever([0.0, 0.0, SHARE], motion="fixed", initial={"rotation_deg": [turn, 0, 0]})
+    scene.attachment("tip", body="beam", point=[LENGTH, 0, 0], displacement=[[0.0, 0.0, 1.0]])
+    scene.solver(start="equilibrium", end_time=0.5, **TIGHT)
+    run = hydrodae.run(scene)
+    sag = -LINE_MASS * 9.81 * LENGTH**4 / (8.0 * BENDING) * np.cos(np.radians(turn))
+    np.testing.assert_allclose(run["modes/beam.bend/amplitude"], sag, rtol=1e-9, atol=1e-9)
+    place = run["bodies/tip/position"].values[0] - [LENGTH, 0.0, 0.0]
+    axis = [0.0, -np.sin(np.radians(turn)), np.cos(np.radians(turn))]
+    np.testing.assert_allclose(place, sag * np.array(axis), atol=1e-9)
+    assert not any("does not load" in note for note in run.notes)
+
+
+@pytest.mark.parametrize(
+    ("participation", "motion", "noted"),
+    [(None, "fixed", True), ([0.0, 0.0, 0.0], "fixed", False), (None, "rigid", False)],
+)
+def test_weight_that_does_not_load_a_mode_is_noted(
+    participation: list[float] | None, motion: Any, noted: bool
+) -> None:
+    """Of normal modes of a free body it is right that it does not."""
+    scene = cantilever(participation, motion=motion, inertia=[1.0, 50.0, 50.0])
+    scene.solver(end_time=0.1, **TIGHT)
+    run = hydrodae.run(scene)
+    assert any("does not load its mode 'bend'" in note for note in run.notes) == noted
+
+
+def test_a_free_body_has_no_participation() -> None:
+    scene = cantilever([0.0, 0.0, SHARE], inertia=[1.0, 50.0, 50.0])
+    scene.solver(end_time=1.0)
+    with pytest.raises(hydrodae.CaseError) as caught:
+        hydrodae.run(scene)
+    assert caught.value.key == "mode.bend.participation"
+
+
+@pytest.mark.parametrize("method", ["auto", "radau", "ida"])
+def test_weight_on_modes_has_a_potential(method: Any) -> None:
+    """A beam that swings about a ball joint and bends: the energy stays, by an exact Jacobian."""
+    scene = cantilever([3.0, 2.0, SHARE], inertia=[120.0, 500.0, 400.0])
+    scene.joint.spherical("ball", body_a="ground", body_b="beam", point=[0.0, 0.0, 0.0])
+    scene.solver(end_time=5.0, method=method, **TIGHT)
+    run = hydrodae.run(scene)
+    total = run["energy/total"].values
+    assert np.ptp(run["modes/beam.bend/amplitude"].values) > 0.01
+    assert np.ptp(run["bodies/beam/rotation"].values[:, 1]) > 1.0
+    assert np.ptp(total) < 3e-6 * np.ptp(run["energy/kinetic"].values)
+
+
+@pytest.mark.parametrize(("rate", "noted"), [(0.09, False), (0.11, True)])
+def test_centrifugal_loads_are_noted(rate: float, noted: bool) -> None:
+    """They soften a mode by m w^2: 1 % at a tenth of its own frequency."""
+    spin = [0.0, 0.0, rate * float(np.sqrt(SHAPE_STIFFNESS / SHAPE_MASS))]
+    start: Any = {"angular_velocity": spin}
+    scene = cantilever(None, gravity=0.0, inertia=[50.0, 50.0, 50.0], initial=start)
+    scene.solver(end_time=0.1, **TIGHT)
+    run = hydrodae.run(scene)
+    assert any("centrifugal" in note for note in run.notes) == noted

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.scenes import four_bar_windows
 from tests.verification import multibody
 from tests.verification.truths import make as truths
 
@@ -177,11 +178,12 @@ def test_hinges_of_the_door_carry_it_together(cases: Path) -> None:
     assert np.allclose(held, needed, atol=0.01)
 
 
-def test_forty_windows_converge(cases: Path) -> None:
+def test_forty_windows_converge() -> None:
     """IFToMM A02 as published, by its own convergence: B0 within 1e-3 m, energy within 0.1 J."""
     runs = [
         hydrodae.run(
-            cases / "n_four_bar_40.toml", set={"solver.method": "explicit_rk", "solver.rtol": rtol}
+            hydrodae.Case.from_text(four_bar_windows(40)),
+            set={"solver.method": "explicit_rk", "solver.rtol": rtol},
         )
         for rtol in (1e-6, 1e-8)
     ]

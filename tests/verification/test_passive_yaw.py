@@ -6,14 +6,16 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import h5py
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
 
 import hydrodae
 from hydrodae import _core, hdb
-from hydrodae.errors import SolverError
+from hydrodae.errors import CaseError, SolverError
 from hydrodae.linear import LinearModel
 from hydrodae.support.arrays import Complex
 
@@ -302,3 +304,97 @@ def test_oswec_weathervanes(reference: Path, tmp_path: Path) -> None:
     late = {t: mean for t, mean in WEATHERVANING.items() if t > 100}  # the ramp has another shape
     own = mean_yaws(hydrodae.run(folder / "yaw.toml"))
     assert {t: own[t] for t in late} == pytest.approx(late, abs=0.3)
+
+
+#: Of a box barge about its centre of gravity: heave, roll, pitch [N/m, N m]; what moves with them.
+BARGE_STIFFNESS = np.array([215.8e3, 132.7e3, 1239e3])
+BARGE_ADDED = np.diag([5e3, 8e3, 2e4, 19e3, 1e5, 6e4])
+ROLL_PERIOD = 3.433  # s
+
+
+def barge(folder: Path, **start: Any) -> hydrodae.Scene:
+    """Return a free box barge that radiates nothing, in still water."""
+    area, roll, pitch = BARGE_STIFFNESS / (1000.0 * G)
+    statics = hdb.Hydrostatics(13.2, np.zeros(3), area, np.array([0.0, 0.0, pitch, roll, 0.0]))
+    force = np.zeros((OMEGA.size, 13, 6), dtype=complex)
+    n = (OMEGA.size, 1, 1)
+    hdb.HydroDatabase(
+        coordinates=tuple(f"barge.{dof}" for dof in hdb.labels.DOFS),
+        omega=OMEGA,
+        added_mass=np.tile(BARGE_ADDED, n),
+        radiation_damping=np.tile(np.zeros((6, 6)), n),
+        added_mass_inf=BARGE_ADDED,
+        added_mass_inf_std=np.zeros((6, 6)),
+        heading=np.radians(np.arange(0.0, 361.0, 30.0)),
+        froude_krylov=force,
+        diffraction=force,
+        bodies={"barge": hdb.Body("barge", np.zeros(3), statics)},
+        rho=1000.0,
+        gravity=G,
+    ).write(folder / "hydro.h5")
+    initial: Any = start
+    scene = hydrodae.Scene("barge", directory=folder)
+    scene.hydro(database="hydro.h5", axes="yaw", radiation="none")
+    inertia = [float(BARGE_STIFFNESS[1] * (ROLL_PERIOD / (2 * np.pi)) ** 2 - 19e3), 1e5, 1.2e5]
+    scene.body(
+        "barge", hydro="barge", mass=13.2e3, inertia=inertia, center_of_gravity=[0.0, 0.0, 0.0],
+        initial=initial,
+    )  # fmt: skip
+    return scene
+
+
+def tilt(results: hydrodae.Results) -> NDArray[np.float64]:
+    """Return how far the vertical leans to starboard and aft, seen from the barge, (n, 2) [-]."""
+    turns = Rotation.from_rotvec(results["bodies/barge/rotation"].values)
+    return np.asarray(turns.inv().apply([0.0, 0.0, 1.0])[:, [1, 0]])
+
+
+@pytest.mark.parametrize("heading", [0.0, 65.0, -120.0])
+def test_a_turning_barge_rolls_with_its_own_period(tmp_path: Path, heading: float) -> None:
+    """It turns by 0.25 deg/s, over 30 degrees; then its roll is that of every heading.
+
+    The turn itself lets pitch shake each cycle a little: 20 of them count.
+    """
+    ahead = 0.01 * np.exp(1j * np.radians(heading))
+    start: Any = {
+        "rotation_deg": [0.0, 0.0, heading],
+        "angular_velocity": [float(ahead.real), float(ahead.imag), float(np.radians(0.25))],
+    }
+    scene = barge(tmp_path, **start)
+    scene.output(step=0.02)
+    scene.solver(end_time=180.0, rtol=1e-9, accuracy="none")
+    results = hydrodae.run(scene)
+    roll, pitch = tilt(results).T
+    yaw = np.unwrap(results["bodies/barge/rotation"].values[:, 2])
+    assert yaw[-1] - yaw[0] == pytest.approx(np.radians(45.0), abs=0.01)
+    rises = np.flatnonzero((roll[:-1] < 0.0) & (roll[1:] >= 0.0))
+    at = results.time[rises] - 0.02 * roll[rises] / (roll[rises + 1] - roll[rises])
+    assert (at[-1] - at[-21]) / 20.0 == pytest.approx(ROLL_PERIOD, rel=1e-3)
+    assert np.abs(roll).max() == pytest.approx(0.01 * ROLL_PERIOD / (2.0 * np.pi), rel=0.01)
+    assert np.abs(pitch).max() < 5e-4
+
+
+@pytest.mark.parametrize("method", ["auto", "radau", "ida"])
+def test_a_tumbling_barge_keeps_its_energy(tmp_path: Path, method: Any) -> None:
+    """Heave, roll and pitch by 30 degrees while it turns round twice: still water takes nothing."""
+    start: Any = {
+        "displacement": [0.0, 0.0, 0.3],
+        "rotation_deg": [25.0, 10.0, 40.0],
+        "angular_velocity": [0.5, -0.3, 0.6],
+    }
+    scene = barge(tmp_path, **start)
+    scene.solver(end_time=20.0, rtol=1e-10, method=method, accuracy="none")
+    results = hydrodae.run(scene)
+    total, kinetic = results["energy/total"].values, results["energy/kinetic"].values
+    assert np.abs(tilt(results)).max(axis=0).min() > 0.2
+    assert np.ptp(total) < (1e-5 if method == "ida" else 1e-7) * np.ptp(kinetic)
+
+
+def test_a_stiffness_that_no_still_water_has_is_refused(tmp_path: Path) -> None:
+    scene = barge(tmp_path)
+    scene.solver(end_time=1.0)
+    with h5py.File(tmp_path / "hydro.h5", "r+") as file:
+        file["bodies/barge/hydrostatic_stiffness"][0, 0] = 1e4
+    with pytest.raises(CaseError, match="row surge, column surge") as caught:
+        hydrodae.run(scene)
+    assert caught.value.key == "body.barge.hydro"

@@ -80,7 +80,7 @@ step = 0.05
 """
 
 
-def write_case(folder: Path, poses: Array, **more: object) -> Path:
+def write_case(folder: Path, poses: Array, memory: str = "rest", **more: object) -> Path:
     """Write a case of the sphere with a table over heave."""
     mesh = hulls.sphere(RADIUS, 12)
     hulls.write_obj(folder / "sphere.obj", mesh)
@@ -95,6 +95,7 @@ body = "float"
 coordinate = "heave"
 values = {poses.tolist()}
 databases = [{files}]
+memory = "{memory}"
 """
     path = folder / "case.toml"
     path.write_text(text)
@@ -120,16 +121,26 @@ def test_energy_is_conserved_without_radiation(tmp_path: Path, method: str) -> N
     assert np.abs(total - total[0]).max() < bound * kinetic.max()
 
 
-def reference_decay(folder: Path, poses: Array, times: Array) -> Array:
-    """Return the heave by an own program: (m + A(z)) z'' + A'(z) z'^2 / 2 = F(z) - C(z) x [m]."""
+def reference_decay(
+    folder: Path, poses: Array, times: Array, memory: str, start: float = 3.0
+) -> Array:
+    """Return the heave by an own program: (m + A(z)) z'' + A'(z) z'^2 / 2 = F(z) - C x [m].
+
+    C is that of rest, or C(z).
+    """
     bases = [HydroDatabase.read(folder / f"pose{k}.h5").memory["heave"] for k in range(poses.size)]
+    rest = HydroDatabase.read(folder / "hydro.h5").memory["heave"]
     added = CubicSpline(poses, [float(fit.added_mass_inf[0, 0]) for fit in bases])
-    outputs = CubicSpline(poses, [fit.output_matrix[0] for fit in bases])
-    poles, inputs = bases[0].poles, bases[0].input_matrix[:, 0]
+    blends = CubicSpline(poses, [fit.output_matrix[0] for fit in bases])
+    poles, inputs = rest.poles, rest.input_matrix[:, 0]
+
+    def outputs(z: float) -> Array:
+        return np.asarray(blends(z) if memory == "blended" else rest.output_matrix[0])
+
     vertices, triangles = hulls.sphere(RADIUS, 12)
 
     def buoyancy(rise: float) -> float:
-        return RHO * GRAVITY * float(_volume(vertices, triangles, rise))
+        return RHO * GRAVITY * _volume(vertices, triangles, rise)
 
     def rates(_: float, y: Array) -> Array:
         z, v = y[0], y[1]
@@ -139,38 +150,82 @@ def reference_decay(folder: Path, poses: Array, times: Array) -> Array:
         change = poles * x + inputs * v
         return np.asarray(np.r_[v, a, change.real, change.imag])
 
-    start = np.r_[3.0, np.zeros(1 + 2 * len(poles))]
-    found = solve_ivp(rates, (0.0, times[-1]), start, "DOP853", times, rtol=1e-9, atol=1e-9)
+    first = np.r_[start, np.zeros(1 + 2 * len(poles))]
+    found = solve_ivp(rates, (0.0, times[-1]), first, "DOP853", times, rtol=1e-9, atol=1e-9)
     return np.asarray(found.y[0])
 
 
-def _volume(vertices: Array, triangles: NDArray[np.int64], height: float) -> Array:
-    """Return the volume of a mesh beneath z = 0 when its origin is at `height` [m3]."""
-    corners = vertices[triangles] + np.array([0.0, 0.0, height])
-    total = 0.0
-    for triangle in corners:
-        polygon: list[Array] = []
-        for a, b in zip(triangle, np.roll(triangle, -1, axis=0), strict=True):
-            if a[2] <= 0.0:
-                polygon.append(a)
-            if (a[2] < 0.0 < b[2]) or (b[2] < 0.0 < a[2]):
-                polygon.append(a + (b - a) * (a[2] / (a[2] - b[2])))
-        for k in range(1, len(polygon) - 1):
-            p, q, r = polygon[0], polygon[k], polygon[k + 1]
-            total -= (p[2] + q[2] + r[2]) / 3.0 * -0.5 * float(np.cross(q - p, r - p)[2])
-    return np.asarray(total)
+def _volume(vertices: Array, triangles: NDArray[np.int64], height: float) -> float:
+    """Return the volume of a mesh beneath z = 0 when its origin is at `height` [m3].
+
+    By Gauss's theorem: horizontal projection of each triangle times its mean of min(z, 0).
+    """
+    p, q, r = np.moveaxis(vertices[triangles], 1, 0)
+    projection = 0.5 * np.cross(q - p, r - p)[:, 2]
+    low, middle, high = np.sort(vertices[triangles][:, :, 2] + height, axis=1).T
+    with np.errstate(divide="ignore", invalid="ignore"):
+        tip = low**3 / (3.0 * (middle - low) * (high - low))
+        rest = (low + middle + high) / 3.0 - high**3 / (3.0 * (high - low) * (high - middle))
+    below = np.where(middle > 0.0, tip, np.where(high > 0.0, rest, (low + middle + high) / 3.0))
+    return float(np.sum(projection * np.where(low < 0.0, below, 0.0)))
 
 
-def test_a_decay_with_memory_follows_an_own_program(tmp_path: Path) -> None:
+@pytest.mark.parametrize("memory", ["rest", "blended"])
+def test_a_decay_with_memory_follows_an_own_program(tmp_path: Path, memory: str) -> None:
     write_tables(tmp_path, POSES)
-    path = write_case(tmp_path, POSES, radiation="exponential", end=6.0)
+    path = write_case(tmp_path, POSES, memory, radiation="exponential", end=6.0)
     results = hydrodae.run(path)
-    exact = reference_decay(tmp_path, POSES, results.time)
+    exact = reference_decay(tmp_path, POSES, results.time, memory)
     np.testing.assert_allclose(heave(results), exact, atol=2e-6)
     assert not any("rises or sinks" in note for note in results.notes)
     # and differs from constant tables by much more
     fixed = hydrodae.run(write_case(tmp_path, np.array([]), radiation="exponential", end=6.0))
     assert np.abs(heave(fixed) - exact).max() > 0.1
+
+
+def write_released(folder: Path, reference: Path, *, lightens: bool) -> Array:
+    """Write tables of the sphere of 5 m that is let go out of the water; return their poses.
+
+    Added mass at 19 positions by a boundary-element method, or that of rest. The damping of long
+    waves goes with the square of the waterplane.
+    """
+    rows = np.genfromtxt(
+        reference / "nonlinear" / "sphere_ainf_z" / "ainf.csv", delimiter=",", names=True
+    )
+    ratio = np.r_[rows["A_over_half_sphere_mass"], 0.002]
+    poses = RADIUS * np.r_[rows["z_over_R"], 1.0]
+    write_tables(folder, poses)
+    rest = HydroDatabase.read(folder / "hydro.h5")
+    for k, added in enumerate(ratio / ratio[poses == 0.0] if lightens else np.ones(poses.size)):
+        damping = max(1.0 - (poses[k] / RADIUS) ** 2, 0.0) ** 2
+        inf = {"added_mass_inf": added * rest.memory["heave"].added_mass_inf}
+        fit = rest.memory["heave"]
+        fit = replace(fit, output_matrix=damping * fit.output_matrix, **inf)
+        table = HydroDatabase.read(folder / f"pose{k}.h5")
+        replace(table, memory={"heave": fit}).write(folder / f"pose{k}.h5")
+    return np.asarray(poses)
+
+
+@pytest.mark.parametrize("lightens", [True, False])
+def test_the_release_of_a_sphere(tmp_path: Path, reference: Path, lightens: bool) -> None:
+    """From 5 m, where it leaves the water: both memories by an own program.
+
+    The series comes from a program with the added mass and the memory of rest.
+    """
+    poses = write_released(tmp_path, reference, lightens=lightens)
+    series = np.genfromtxt(
+        reference / "nonlinear" / "sphere_5m_oes" / "decay_5m.csv", delimiter=",", names=True
+    )
+    errors = []
+    for memory in ("rest", "blended"):
+        path = write_case(tmp_path, poses, memory, radiation="exponential", rise=4.99, end=15.0)
+        results = hydrodae.run(path)
+        exact = reference_decay(tmp_path, poses, results.time, memory, start=4.99)
+        np.testing.assert_allclose(heave(results), exact, atol=2e-5)
+        other = np.interp(results.time, series["time"], series["NREL_CFD"])
+        errors.append(float(np.sqrt(np.mean((heave(results) - other) ** 2))))
+    assert errors[0] < errors[1]
+    assert lightens or (errors[0] < 0.05 and errors[1] > 0.25)
 
 
 @pytest.mark.parametrize("radiation", ["none", "exponential", "constant"])
@@ -222,6 +277,7 @@ def test_a_pose_beyond_the_table_ends_the_run(tmp_path: Path) -> None:
         (("values = [-1.0, 0.0,", "values = [-1.0, 0.5,"), "center_of_gravity"),
         (('body = "float"\n', 'body = "flaot"\n'), "did you mean"),
         (('"none"', '"convolution"'), "no tables over poses"),
+        (('memory = "rest"', 'memory = "blended"'), "needs radiation"),
     ],
 )
 def test_a_wrong_table_is_refused(tmp_path: Path, change: tuple[str, str], message: str) -> None:
@@ -238,7 +294,7 @@ def test_the_frequency_domain_takes_the_tables_at_equilibrium(tmp_path: Path) ->
     write_tables(tmp_path, poses)
     path = write_case(tmp_path, poses, more="")
     # heavier: it floats 1 m deeper
-    deeper = RHO * float(_volume(*hulls.sphere(RADIUS, 12), -1.0))
+    deeper = RHO * _volume(*hulls.sphere(RADIUS, 12), -1.0)
     path.write_text(path.read_text().replace("mass = 261.8e3", f"mass = {deeper!r}"))
     model = LinearModel(path)
     rest = HydroDatabase.read(tmp_path / "hydro.h5")

@@ -6,7 +6,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from tests.verification import attenuator
+from tests.verification import attenuator, hulls
 from tests.verification.sanity_scenes import (
     FLAP,
     MASS,
@@ -348,3 +348,80 @@ def test_ropes_stretched_beyond_rubber(keys: str, complaint: str) -> None:
     found = complaints(pole(depth=12.0, more=f'[[force]]\nname = "tether"\n{places}{keys}'))
     assert len(found) == (1 if complaint else 0)
     assert all(complaint in text and "force 'tether'" in text for text in found)
+
+
+HULL = """
+[environment]
+water_density = 1000.0
+water_depth = {depth}
+{wave}
+[[body]]
+name = "float"
+motion = "heave"
+mass = "equilibrium"
+center_of_gravity = [0.0, 0.0, -0.5]
+mesh = "hull.obj"
+hydrostatics = "mesh"
+{loads}initial = {{ displacement = [0.0, 0.0, {release}] }}
+[solver]
+end_time = 1.0
+"""
+WAVE = '[[wave]]\nname = "w"\ntype = "regular"\nheight = {}\nperiod = 8.0'
+
+
+@pytest.mark.parametrize(
+    ("scale", "top", "depth", "found"),
+    [
+        (1.0, 2.0, "1e4", None),
+        (1.0, 0.3, "1e4", None),
+        (1.0, -0.5, "1e4", "nothing restores"),  # a submerged hull has no freeboard to lose
+        (1.0, 0.0, "1e4", "ends at the still water line"),
+        (1.0, 1e-5, "1e4", "ends at the still water line"),
+        (1000.0, 2.0, "1e4", "4000 m long"),
+        (1.0, 2.0, "1.5", "below the sea bed"),
+        (50.0, 2.0, "120.0", None),
+    ],
+)
+def test_size_and_freeboard_of_a_mesh(
+    tmp_path: Path, scale: float, top: float, depth: str, found: str | None
+) -> None:
+    vertices, triangles = hulls.box(4.0, 3.0, -2.0, top)
+    hulls.write_obj(tmp_path / "hull.obj", (scale * vertices, triangles))
+    text = HULL.format(depth=depth, wave="", loads="", release=0.0)
+    case = hydrodae.Case.from_text(text, directory=tmp_path)
+    told = complaints(case)
+    if found is None or found == "nothing restores":
+        assert not any("mesh of body" in line for line in told)
+    else:
+        assert any(found in line for line in told)
+        assert any(found in note for note in run_notes(case))
+
+
+@pytest.mark.parametrize(
+    ("height", "release", "awash"),
+    [(0.0, 0.1, False), (0.0, 0.4, True), (0.4, 0.0, False), (0.8, 0.0, True), (0.4, -0.2, True)],
+)
+def test_waves_or_a_release_above_the_freeboard_are_noted(
+    tmp_path: Path, height: float, release: float, awash: bool
+) -> None:
+    hulls.write_obj(tmp_path / "hull.obj", hulls.box(4.0, 3.0, -2.0, 0.3))
+    text = HULL.format(
+        depth=50.0,
+        wave=WAVE.format(height) if height else "",
+        loads='froude_krylov = "mesh"\n' if height else "",
+        release=release,
+    )
+    case = hydrodae.Case.from_text(text, directory=tmp_path)
+    assert ("may flood its deck" in case.examine()) == awash
+    assert complaints(case) == []
+
+
+def test_one_mesh_in_millimetres_beside_another_is_told(tmp_path: Path) -> None:
+    vertices, triangles = hulls.box(0.4, 0.3, -0.2, 0.2)
+    hulls.write_obj(tmp_path / "hull.obj", (vertices, triangles))
+    hulls.write_obj(tmp_path / "large.obj", (1000.0 * vertices, triangles))
+    text = HULL.format(depth="1e4", wave="", loads="", release=0.0)
+    body = text[text.index("[[body]]") : text.index("[solver]")]
+    other = body.replace('"float"', '"large"').replace("hull.obj", "large.obj")
+    case = hydrodae.Case.from_text(text.replace("[solver]", other + "[solver]"), directory=tmp_path)
+    assert any("400 m long, that of body 'float' 0.4 m" in line for line in complaints(case))

@@ -26,9 +26,8 @@ const MoverError* Estimate::worst() const {
   return known() && found != movers.end() ? &*found : nullptr;
 }
 
-Comparison::Comparison(const system::Regime& first, std::size_t most_ahead)
-    : movers_(first), most_ahead_(most_ahead), motion_(movers_.n_groups()), apart_(movers_.size()) {
-}
+Comparison::Comparison(const system::Regime& first, bool in_turn)
+    : movers_(first), in_turn_(in_turn), motion_(movers_.n_groups()), apart_(movers_.size()) {}
 
 void Comparison::moved(const VectorX& y, const std::vector<double>& turns) {
   movers_.places(y, now_);
@@ -48,9 +47,7 @@ void Comparison::first(double time, const VectorX& y, const std::function<bool()
   first_.emplace_back(time, VectorX());
   movers_.places(y, first_.back().second);
   compare();
-  const auto near = [&] {
-    return most_ahead_ == 0 || first_.size() < most_ahead_ || second_ended_;
-  };
+  const auto near = [&] { return in_turn_ || first_.size() < most_ahead || second_ended_; };
   while (!changed_.wait_for(lock, patience, near) && go_on())
     ;
 }
@@ -59,8 +56,9 @@ bool Comparison::second(const VectorX& places) {
   std::unique_lock lock(mutex_);
   second_.push_back(places);
   compare();
-  changed_.wait(lock,
-                [&] { return most_ahead_ == 0 || second_.size() < most_ahead_ || first_ended_; });
+  changed_.wait(lock, [&] {
+    return in_turn_ || second_.size() < most_ahead || first_ended_ || second_passes_;
+  });
   return !first_ended_ || !first_.empty();
 }
 
@@ -81,25 +79,66 @@ bool Comparison::wait_for_second() {
   return changed_.wait_for(lock, patience, [&] { return second_ended_; });
 }
 
+void Comparison::let_pass(bool second) {
+  const std::lock_guard lock(mutex_);
+  second_passes_ = second;
+  changed_.notify_all();
+}
+
+void Comparison::remember(Archive& a) {
+  const std::lock_guard lock(mutex_);
+  a(first_, second_, second_ended_, start_, turns0_, motion_, span_, compared_, until_, time_,
+    apart_);
+}
+
 /// All samples that are there of both.
 void Comparison::compare() {
   while (!first_.empty() && !second_.empty()) {
-    time_.push_back(first_.front().first);
-    for (std::size_t m = 0; m < movers_.size(); ++m)
-      apart_[m].push_back(movers_.apart(m, first_.front().second, second_.front()));
+    until_ = first_.front().first;
+    const bool begins = compared_++ % span_ == 0;
+    if (begins)
+      time_.push_back(until_);
+    for (std::size_t m = 0; m < movers_.size(); ++m) {
+      const Apart apart = movers_.apart(m, first_.front().second, second_.front());
+      if (begins)
+        apart_[m].push_back(apart);
+      else
+        apart_[m].back().widen(apart);
+    }
+    if (compared_ == most_spans * span_)
+      double_spans();
     first_.pop_front();
     second_.pop_front();
     changed_.notify_all();
   }
 }
 
+void Comparison::double_spans() {
+  span_ *= 2;
+  for (std::size_t k = 0; k < most_spans / 2; ++k) {
+    time_[k] = time_[2 * k];
+    for (std::vector<Apart>& apart : apart_) {
+      apart[k] = apart[2 * k];
+      apart[k].widen(apart[2 * k + 1]);
+    }
+  }
+  time_.resize(most_spans / 2);
+  for (std::vector<Apart>& apart : apart_)
+    apart.resize(most_spans / 2);
+}
+
 /// What errors of a group are compared with: turns with its largest motion, displacements with
-/// their own largest, but with no less than the tolerance of translations follows (MotionScale).
+/// their own largest, but with no less than the tolerance of translations follows (MotionScale), or
+/// than counts as rest.
 std::vector<Apart> Comparison::measures() const {
   std::vector<Apart> out = motion_;
-  for (Apart& m : out)
-    m = {std::max({m.moved, system::least_translation * m.both(), 1e-300}),
-         std::max(m.both(), 1e-300)};
+  std::vector<double> rest(out.size(), 1e-300);
+  for (std::size_t m = 0; m < movers_.size(); ++m)
+    rest[movers_.group(m)] =
+        std::max(rest[movers_.group(m)], system::rest_motion * movers_.lever(m));
+  for (std::size_t g = 0; g < out.size(); ++g)
+    out[g] = {std::max({out[g].moved, system::least_translation * out[g].both(), rest[g]}),
+              std::max(out[g].both(), rest[g])};
   return out;
 }
 
@@ -107,7 +146,7 @@ Estimate Comparison::estimate(double divisor) const {
   const std::lock_guard lock(mutex_);
   Estimate out;
   out.time = time_;
-  out.until = time_.empty() ? 0.0 : time_.back();
+  out.until = until_;
   const std::vector<Apart> measures = this->measures();
   for (std::size_t m = 0; m < movers_.size(); ++m) {
     MoverError error;

@@ -10,13 +10,14 @@
 #include <vector>
 
 #include "hydrodae/accuracy/places.h"
+#include "hydrodae/core/archive.h"
 
 namespace hydrodae::accuracy {
 
 /// Error of one body or line over a run.
 struct MoverError {
   std::string name;
-  std::vector<double> error; ///< at each sample that both runs reached [m]
+  std::vector<double> error; ///< largest at the samples of each span that both runs reached [m]
   std::vector<double> part;  ///< the same as a part of the motion [-]
   double motion = 0.0;       ///< of its group: the largest displacement from the start [m]
   double largest = 0.0;      ///< of `part` [-]
@@ -31,7 +32,7 @@ struct Estimate {
   std::string how;          ///< "a second run at rtol = 1e-05"
   std::string missing;      ///< why it is missing, or ends at `until`; empty: it is complete
   double until = 0.0;       ///< time up to which the runs were compared [s]
-  std::vector<double> time; ///< of the samples [s]
+  std::vector<double> time; ///< first sample of each span [s]
   std::vector<MoverError> movers;
   bool known() const { return time.size() > 1; }
   const MoverError* worst() const; ///< null: nothing moves, or nothing is known
@@ -43,10 +44,16 @@ struct Estimate {
 ///
 /// With errors e and c e of the two the difference is (c - 1) e, so that the divisor is c - 1. From
 /// where the error passes a twentieth of the motion it is the difference itself.
+///
+/// A span is one sample. Each time that there are `most_spans`, two become one with the larger
+/// difference: the memory does not grow with the length of the runs, and no difference is lost.
 class Comparison {
 public:
-  /// @param most_ahead samples after which a run waits for the other one; 0: no bound
-  Comparison(const system::Regime& first, std::size_t most_ahead);
+  static constexpr std::size_t most_spans = 16384;
+  static constexpr std::size_t most_ahead = 10000; ///< samples that wait for the slower run
+
+  /// @param in_turn the second run follows the first, whose samples all wait for it
+  Comparison(const system::Regime& first, bool in_turn);
 
   /// The state of the first run at the end of a step, with its coordinates over turns.
   void moved(const VectorX& y, const std::vector<double>& turns);
@@ -67,24 +74,32 @@ public:
   /// ended
   bool wait_for_second();
 
+  /// While it is set, a second run that is ahead does not wait for the first, which waits for it.
+  void let_pass(bool second);
+
+  void remember(Archive& a);
+
   /// Of all samples that both runs have given.
   Estimate estimate(double divisor) const;
 
 private:
   void compare();
+  void double_spans();
   std::vector<Apart> measures() const;
 
   Movers movers_;
-  const std::size_t most_ahead_;
+  const bool in_turn_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::pair<double, VectorX>> first_;
   std::deque<VectorX> second_;
-  bool first_ended_ = false, second_ended_ = false;
+  bool first_ended_ = false, second_ended_ = false, second_passes_ = false;
   VectorX start_, now_;
-  std::vector<double> turns0_; ///< at the start
-  std::vector<Apart> motion_;  ///< by group
-  std::vector<double> time_;
+  std::vector<double> turns0_;            ///< at the start
+  std::vector<Apart> motion_;             ///< by group
+  std::size_t span_ = 1, compared_ = 0;   ///< samples in a span, and in all
+  double until_ = 0.0;                    ///< time of the last sample compared [s]
+  std::vector<double> time_;              ///< first sample of each span [s]
   std::vector<std::vector<Apart>> apart_; ///< by mover
 };
 

@@ -13,6 +13,10 @@ namespace {
 
 constexpr double usual = 1e-2; ///< part of the energy exchanged
 
+/// Part of the potential energy m g L of a body that rounding may lose: 2e-16 in each of 5000
+/// steps.
+constexpr double rounded_off = 1e-12;
+
 /// Energy exchanged, as far as a wrong step cannot have made it up: what was exchanged before it,
 /// times ten, or what moves at its end [J].
 double believed(const measure::Balance& before, const measure::Balance& now) {
@@ -53,8 +57,10 @@ double EnergyGuard::least(int mechanism) const {
   for (const system::BodyData& b : s_.bodies) {
     if (b.group < 0 || (mechanism >= 0 && b.mechanism != mechanism))
       continue;
-    const double speed = b.length_scale / b.time_scale * s_.motion_scale[b.group];
-    out = std::max(out, std::min(100.0 * rtol_, 0.1) * b.mass * speed * speed);
+    const double speed = b.length_scale / b.time_scale * s_.motion_scale[b.group],
+                 full = b.lever / b.time_scale; // its square is that of a fall over the lever
+    out = std::max({out, std::min(100.0 * rtol_, 0.1) * b.mass * speed * speed,
+                    rounded_off * b.mass * full * full});
   }
   return out;
 }

@@ -18,6 +18,7 @@ struct Apart {
     moved = std::max(moved, other.moved);
     turned = std::max(turned, other.turned);
   }
+  template <class Archive> void remember(Archive& a) { a(moved, turned); }
 };
 
 /// What moves in a scene: bodies, and lines with the places of their nodes.
@@ -26,12 +27,14 @@ public:
   explicit Movers(const system::Regime& system);
 
   std::size_t size() const { return all_.size(); }
+  Index width() const { return n_places_; } ///< numbers of a sample
   const std::string& name(std::size_t mover) const { return all_[mover].name; }
 
   /// Bodies that joints or loads connect, and each line, are a group of their own: errors count
   /// against the largest motion of the group.
   std::size_t group(std::size_t mover) const { return all_[mover].group; }
   std::size_t n_groups() const { return n_groups_; }
+  double lever(std::size_t mover) const { return all_[mover].lever; } ///< [m]; 0 of lines
 
   /// Of a state y: poses of the bodies (r, then R column by column) and places of the nodes
   /// (n_places,).

@@ -5,6 +5,7 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/system/dropped_rows.h"
 
 namespace hydrodae::build {
 
@@ -79,13 +80,13 @@ void write_back(system::System& s, const std::vector<BodyStart>& starts, const V
 /// Gaps of the rows that were left out must fit the tolerance, too.
 void check_dropped(system::System& s, const system::Regime& kept, const VectorX& y,
                    double tolerance) {
-  const DroppedGap worst = largest_dropped_gap(kept, 0.0, y);
-  const std::string size = number_text(worst.gap) + (worst.angle ? " rad" : " m");
+  const system::DroppedRows::Gap worst = system::DroppedRows(kept).largest(0.0, y);
+  const std::string size = number_text(worst.gap) + " " + worst.unit;
   if (worst.part > tolerance)
     throw ModelError(worst.key,
                      "joints are inconsistent: " + worst.name + " stays open by " + size +
                          ", more than solver.tolerance_assembly = " + number_text(tolerance) +
-                         " of the body's lever, when the others close; a tolerance above " +
+                         " of the body's arm, when the others close; a tolerance above " +
                          number_text(worst.part) + " lets it give way");
   if (worst.part > 1e-9)
     s.notes.push_back(worst.name + " is open by " + size +

@@ -48,6 +48,12 @@ system::BodyData make_body(const model::Body& body, const Pose& pose) {
   return b;
 }
 
+/// Parts of the device that the case states to be missing.
+void note_missing(const model::Scene& scene, system::System& s) {
+  for (const std::string& part : scene.missing)
+    s.notes.push_back("missing in the case: " + part);
+}
+
 /// Masses that follow from the displaced water.
 void note_masses(const model::Scene& scene, system::System& s) {
   for (const model::Body& body : scene.bodies)
@@ -77,6 +83,7 @@ system::System build(const model::Scene& scene, bool with_excitation) {
   const std::vector<Pose> poses = initial_poses(scene);
   for (std::size_t i = 0; i < poses.size(); ++i)
     s.bodies.push_back(make_body(scene.bodies[i], poses[i]));
+  note_missing(scene, s);
   note_masses(scene, s);
   for (const model::Joint& joint : scene.joints)
     add_joint(scene, joint, s);
@@ -87,6 +94,7 @@ system::System build(const model::Scene& scene, bool with_excitation) {
   add_attachments(scene, s);
   add_elements(scene, s);
   set_mode_loads(scene, s);
+  note_weights(scene, s);
   add_morison(scene, s);
   add_hulls(scene, with_excitation, s);
   for (const model::Marker& m : scene.markers)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hydrodae/system/dropped_rows.h"
 #include "hydrodae/system/residual.h"
 
 namespace hydrodae::build {
@@ -13,14 +14,6 @@ VectorX displacement_scale(const system::System& s) {
     for (int k = 0; k < b.n_active; ++k)
       scale[b.u0 - s.u0 + k] = b.active[k] < 3 ? b.length_scale : b.length_scale / b.lever;
   return scale;
-}
-
-double smaller_lever(const system::System& s, const system::JointData& j) {
-  double lever = INFINITY;
-  for (int body : {j.A.body, j.B.body})
-    if (body >= 0 && s.bodies[body].n_active > 0)
-      lever = std::min(lever, s.bodies[body].lever);
-  return std::isfinite(lever) ? lever : 1.0;
 }
 
 Constraints::Constraints(const system::Regime& s, std::vector<system::MotionStart> starts)
@@ -34,20 +27,20 @@ Constraints::Constraints(const system::Regime& s, std::vector<system::MotionStar
     const Index i = s.n_lambda + static_cast<Index>(k);
     angle_[static_cast<std::size_t>(i)] = motion.motion.is_angle();
     size_[i] = motion.motion.is_angle() ? b.length_scale / b.lever : b.length_scale;
-    lever_[i] = smaller_lever(s, j);
+    lever_[i] = system::smaller_arm(s, j);
   }
   for (const system::JointData& j : s.joints)
     for (const system::RowData& row : j.rows)
       if (s.holds(row)) {
         angle_[static_cast<std::size_t>(s.lambda(row) - s.lambda0)] =
             row.kind.kind == joint::BasicRow::Kind::perp;
-        lever_[s.lambda(row) - s.lambda0] = smaller_lever(s, j);
+        lever_[s.lambda(row) - s.lambda0] = system::smaller_arm(s, j);
       }
   for (const system::CouplerData& c : s.couplers)
     if (s.holds(c)) {
       const system::MotionData& motion = s.motions[c.terms.front().motion];
       angle_[static_cast<std::size_t>(s.lambda(c) - s.lambda0)] = motion.motion.is_angle();
-      lever_[s.lambda(c) - s.lambda0] = smaller_lever(s, s.joints[motion.joint]);
+      lever_[s.lambda(c) - s.lambda0] = system::smaller_arm(s, s.joints[motion.joint]);
     }
   system::for_each_row(s, [&](const system::Row& row, bool velocity_level) {
     if (!s.holds(row))

@@ -14,9 +14,6 @@ namespace hydrodae::build {
 /// What one unit of each velocity coordinate means as a displacement [m or rad], (n_u,).
 VectorX displacement_scale(const system::System& system);
 
-/// Lever of the smaller of the bodies of a joint that move [m].
-double smaller_lever(const system::System& system, const system::JointData& joint);
-
 /// Row i < n_rows belongs to the multiplier lambda0 + i. After them come the motions whose start is
 /// given, one row each. Holds a reference: the regime must outlive it, with the same layout.
 class Constraints {
@@ -41,7 +38,7 @@ public:
   }
   bool holds_rate(Index i) const { return i < s_.n_lambda || start(i).rate.has_value(); }
   bool is_angle(Index i) const { return angle_[static_cast<std::size_t>(i)]; }
-  double lever(Index i) const { return lever_[i]; } ///< of the smaller body [m]
+  double lever(Index i) const { return lever_[i]; } ///< arm of the smaller body [m]
   std::string name(Index i) const;                  ///< "joints/door gap along x"
   std::string key(Index i) const; ///< what of the case it belongs to: "joint.door"
   const VectorX& scale() const { return scale_; }

@@ -5,6 +5,7 @@
 
 #include "hydrodae/build/initial_pose.h"
 #include "hydrodae/build/parts.h"
+#include "hydrodae/core/text.h"
 #include "hydrodae/element/linear_points.h"
 #include "hydrodae/hydro/coverage.h"
 #include "hydrodae/math/rotation.h"
@@ -35,11 +36,11 @@ std::vector<int> amplitudes(const model::Scene& scene, const std::string& body, 
   return out;
 }
 
-/// (6 + n, 3 (3 + n)): surge ... yaw and amplitudes from the displacements of points: of three on
-/// the body, its centre c and c + x, c + y at a lever of 1 m, and one for each mode. Horizontal
-/// ones along axes turned by the mean yaw; to first order in the angles.
-MatrixX from_points(Index n, double yaw) {
-  MatrixX T = MatrixX::Zero(6 + n, 3 * (3 + n));
+/// (6 + n, 3 (own + n)): surge ... yaw and amplitudes from the displacements of points: of `own` on
+/// the body, its centre c and c + x, c + y (and c + z) at a lever of 1 m, and one for each mode.
+/// Horizontal ones along axes turned by the mean yaw; to first order in the angles.
+MatrixX from_points(Index own, Index n, double yaw) {
+  MatrixX T = MatrixX::Zero(6 + n, 3 * (own + n));
   const double c = std::cos(yaw), d = std::sin(yaw);
   T.block<2, 2>(0, 0) << c, d, -d, c;
   T(2, 2) = 1.0;
@@ -48,7 +49,7 @@ MatrixX from_points(Index n, double yaw) {
   T.block<1, 2>(5, 3) << -d, c;  // yaw: c + x goes along y
   T.block<1, 2>(5, 0) << d, -c;
   for (Index k = 0; k < n; ++k)
-    T(6 + k, 3 * (3 + k)) = 1.0;
+    T(6 + k, 3 * (own + k)) = 1.0;
   return T;
 }
 
@@ -73,6 +74,34 @@ MatrixX hydrostatics(const model::Scene& scene, const model::Body& body,
   return out;
 }
 
+/// Stiffness (3 (4 + n), 3 (4 + n)) of the weight on the modes, between the points of
+/// `from_points`. Their heights give R^T e_z, so that the potential g e_z . R sum w_k q_k is a
+/// quadratic form: it bends the body at any pose, and turns it by the shift of its centre of mass.
+MatrixX weight_on_modes(const model::Scene& scene, const std::vector<std::size_t>& modes,
+                        double gravity) {
+  const Index size = 3 * (4 + std::ssize(modes));
+  MatrixX out = MatrixX::Zero(size, size);
+  for (Index k = 0; k < std::ssize(modes); ++k) {
+    const Vector3 w =
+        scene.modes[modes[static_cast<std::size_t>(k)]].participation.value_or(Vector3::Zero());
+    const Index q = 3 * (4 + k);
+    for (Index i = 0; i < 3; ++i) {
+      out(q, 3 * (1 + i) + 2) = gravity * w[i];
+      out(q, 2) -= gravity * w[i];
+    }
+    out.col(q) = out.row(q).transpose();
+  }
+  return out;
+}
+
+bool is_bent_by_weight(const model::Scene& scene, const std::vector<std::size_t>& modes,
+                       double gravity) {
+  return gravity != 0.0 && std::any_of(modes.begin(), modes.end(), [&](std::size_t k) {
+           const std::optional<Vector3>& w = scene.modes[k].participation;
+           return w && !w->isZero(0.0);
+         });
+}
+
 double mean_yaw(const system::System& s, int body) {
   for (const system::HydroBody& hb : s.hydro.bodies)
     if (hb.body == body)
@@ -87,7 +116,12 @@ system::ElementList loads_of(const model::Scene& scene, const model::Body& body,
   system::PortData port;
   port.component = mode_loads;
   const Vector3& centre = body.center_of_gravity;
-  for (const Vector3& arm : {Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0)})
+  const bool weighs = is_bent_by_weight(scene, modes, s.gravity);
+  std::vector<Vector3> arms = {Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0)};
+  if (weighs)
+    arms.emplace_back(0, 0, 1);
+  const Index own = std::ssize(arms);
+  for (const Vector3& arm : arms)
     port.points.push_back(make_marker(scene, body.name, centre + arm, Matrix3::Identity()));
   for (Index k = 0; k < n; ++k) {
     const std::size_t mode = modes[static_cast<std::size_t>(k)];
@@ -98,17 +132,22 @@ system::ElementList loads_of(const model::Scene& scene, const model::Body& body,
         make_marker(scene, part.name, part.center_of_gravity, Matrix3::Identity()));
   }
   const double yaw = mean_yaw(s, port.points.front().body);
-  const MatrixX T = from_points(n, yaw);
+  const MatrixX T = from_points(own, n, yaw);
   VectorX reference(T.cols());
   const Matrix3 turn = rotation_about_axis<double>(2, yaw);
-  for (Index i = 0; i < 3 + n; ++i) {
+  for (Index i = 0; i < own + n; ++i) {
     const joint::Marker& point = port.points[static_cast<std::size_t>(i)];
     reference.segment<3>(3 * i) = s.bodies[static_cast<std::size_t>(point.body)].reference +
-                                  (i < 3 ? Vector3(turn * point.point) : point.point);
+                                  (i < own ? Vector3(turn * point.point) : point.point);
+  }
+  MatrixX stiffness = T.transpose() * K * T;
+  if (weighs) {
+    stiffness += weight_on_modes(scene, modes, s.gravity);
+    reference[11] = reference[2]; // of c + z: as high as c, as the other two are
   }
   system::ElementList list;
-  list.laws = std::make_shared<const element::LinearPoints>(
-      mode_loads, body.name, reference, T.transpose() * K * T, T.transpose() * C * T);
+  list.laws = std::make_shared<const element::LinearPoints>(mode_loads, body.name, reference,
+                                                            stiffness, T.transpose() * C * T);
   list.ports.push_back(std::move(port));
   return list;
 }
@@ -140,6 +179,21 @@ void add_attachments(const model::Scene& scene, system::System& s) {
           coupler.terms.push_back({modes[k], -by_mode});
       s.couplers.push_back(std::move(coupler));
     }
+  }
+}
+
+void note_weights(const model::Scene& scene, system::System& s) {
+  if (s.gravity == 0.0)
+    return;
+  for (const model::Mode& mode : scene.modes) {
+    const model::Body& body = *model::find_named(scene.bodies, mode.body);
+    const bool may = model::may_participate(scene, body, 0) ||
+                     model::may_participate(scene, body, 1) ||
+                     model::may_participate(scene, body, 2);
+    if (may && !mode.participation)
+      s.notes.push_back("the weight of body " + in_quotes(mode.body) + " does not load its mode " +
+                        in_quotes(mode.name) +
+                        ": give the participation of the mode; [0, 0, 0] if it takes no part");
   }
 }
 

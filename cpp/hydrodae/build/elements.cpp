@@ -197,7 +197,8 @@ void add_buoyancy(const model::Scene& scene, system::System& s) {
   for (const model::Body& body : scene.bodies) {
     if (body.volume == 0.0)
       continue;
-    forces.push_back({body.name, water.density * water.gravity * body.volume});
+    forces.push_back({body.name, water.density * water.gravity * body.volume,
+                      body.is_point() ? std::cbrt(0.75 * body.volume / pi) : 0.0});
     system::PortData port;
     port.component = water::Buoyancy::type;
     port.points.push_back(make_marker(scene, body.name,
@@ -249,6 +250,8 @@ void start_laws(system::System& s) {
 
 void set_hydrostatics(const model::Scene& scene, system::System& s) {
   std::vector<water::Hydrostatics> forces;
+  const auto at_yaw = std::make_shared<water::YawHydrostatics>();
+  const bool follow = s.hydro.axes == system::HydroAxes::yaw;
   std::vector<system::PortData> ports;
   for (const system::HydroBody& hb : s.hydro.bodies) {
     const auto body = static_cast<std::size_t>(hb.body);
@@ -260,7 +263,9 @@ void set_hydrostatics(const model::Scene& scene, system::System& s) {
     port.component = water::Hydrostatics::type;
     port.body = hb.body;
     element::LinearWrench law = hydrostatic_wrench(*scene.database, *entry);
-    if (hb.turned)
+    if (follow)
+      at_yaw->add(s.bodies[body].name, law, s.bodies[body].reference[2]);
+    else if (hb.turned)
       turn(law, port, hb);
     forces.push_back({s.bodies[body].name, law});
     ports.push_back(port);
@@ -273,7 +278,10 @@ void set_hydrostatics(const model::Scene& scene, system::System& s) {
     return;
   if (list == s.elements.end())
     list = s.elements.insert(s.elements.end(), system::ElementList());
-  list->laws = std::make_shared<const element::Laws<water::Hydrostatics>>(forces);
+  if (follow)
+    list->laws = at_yaw;
+  else
+    list->laws = std::make_shared<const element::Laws<water::Hydrostatics>>(forces);
   list->ports = ports;
   system::follow_rotations(s);
 }

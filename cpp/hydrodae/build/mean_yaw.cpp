@@ -48,7 +48,7 @@ bool take_mean_yaw(const model::Scene& scene, system::System& s) {
                            "along world axes, and the axes of its hydrodynamics are turned; free "
                            "both, or hold one by a joint");
   }
-  if (changed) {
+  if (changed && s.hydro.axes != system::HydroAxes::yaw) { // whose loads follow the yaw
     set_hydrostatics(scene, s);
     set_mode_loads(scene, s);
   }

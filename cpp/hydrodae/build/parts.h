@@ -69,6 +69,9 @@ void add_attachments(const model::Scene& scene, system::System& system);
 /// call.
 void set_mode_loads(const model::Scene& scene, system::System& system);
 
+/// Notes modes of held bodies that the weight should load and does not (deformation.cpp).
+void note_weights(const model::Scene& scene, system::System& system);
+
 /// Couplers, drives, stops and one-sided distances (build_constraints.cpp). Throws ModelError.
 void add_constraints(const model::Scene& scene, system::System& system);
 

@@ -37,7 +37,7 @@ Matrix6 own_block(const system::HydroBody& hb, int number, const MatrixX& all) {
   return out;
 }
 
-/// Appends the memory of one database, whose loads the weight multiplies.
+/// Appends the memory of one database, whose loads the weight multiplies; -1: nothing does.
 void append_memory(const system::HydroData& from, int weight, system::HydroData& h) {
   const int first = h.n_states;
   for (system::HydroData::Block block : from.blocks) {
@@ -111,10 +111,14 @@ void add_table(const model::Scene& scene, const model::PoseTable& given,
     table.added_mass.push_back(own_block(hb, table.hydro_body, one.added_mass_all));
     if (one.damped)
       table.damping.push_back(own_block(hb, table.hydro_body, one.damping_all));
-    append_memory(one, s.hydro.n_weights++, s.hydro);
+    if (given.blends_memory())
+      append_memory(one, s.hydro.n_weights, s.hydro);
+    ++s.hydro.n_weights;
     if (k == 0)
       s.hydro.uncovered.insert(s.hydro.uncovered.end(), one.uncovered.begin(), one.uncovered.end());
   }
+  if (!given.blends_memory())
+    append_memory(radiation_of(model::scene_at_rest(scene, given), none, s), -1, s.hydro);
   check_blends(given, table, none, s);
   s.hydro.bodies[number].table = static_cast<int>(s.hydro.tables.size());
   s.hydro.tables.push_back(std::move(table));

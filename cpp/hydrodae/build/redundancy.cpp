@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <random>
 #include <set>
 
 #include "hydrodae/build/closing.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
-#include "hydrodae/system/names.h"
+#include "hydrodae/system/dropped_rows.h"
 #include "hydrodae/system/retract.h"
 
 namespace hydrodae::build {
@@ -20,11 +19,36 @@ constexpr double dependent = 1e-9;  ///< pivots below are those of rows that fol
 constexpr double suspicious = 0.03; ///< pivots above are those of independent rows
 constexpr double apart = 0.1;       ///< of the pivot before: below, a suspicious one stands out
 constexpr int drive_samples = 64;
+constexpr double stroke = 0.2; ///< of a body in a trial motion [arms, rad]
 
-/// Rows and bodies scaled so that no body's size decides: the largest entry of each row, and of the
-/// columns of each body together, is about one. (A factor for each column would hide what a body
-/// can hardly do.)
+/// Trial motion of the bodies by which one unit of each velocity moves [m, rad], (n_u,): lengths of
+/// the geometry alone, since masses and units say nothing about a mechanism.
+VectorX trial_scale(const system::System& s) {
+  std::vector<double> arm(s.bodies.size(), INFINITY);
+  for (const system::JointData& j : s.joints)
+    for (int body : {j.A.body, j.B.body})
+      if (body >= 0)
+        arm[static_cast<std::size_t>(body)] =
+            std::min(arm[static_cast<std::size_t>(body)], system::smaller_arm(s, j));
+  VectorX out(s.n_u);
+  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+    const system::BodyData& b = s.bodies[i];
+    for (int k = 0; k < b.n_active; ++k)
+      out[b.u0 - s.u0 + k] = stroke * (b.active[k] >= 3        ? 1.0
+                                       : std::isfinite(arm[i]) ? arm[i]
+                                                               : b.arm);
+  }
+  return out;
+}
+
+/// Rows and bodies scaled so that neither a body's size nor its mass decides: rotations count by
+/// the arm of the body, and the largest entry of each row, and of the columns of each body
+/// together, is about one. (A factor for each column would hide what a body can hardly do.)
 SparseMatrix balanced(const system::System& s, SparseMatrix G) {
+  for (const system::BodyData& b : s.bodies)
+    for (int k = 0; k < b.n_active; ++k)
+      if (b.active[k] >= 3)
+        G.col(b.u0 - s.u0 + k) *= b.lever / b.arm;
   std::vector<std::size_t> owner(static_cast<std::size_t>(s.n_u));
   for (std::size_t b = 0; b < s.bodies.size(); ++b)
     for (int k = 0; k < s.bodies[b].n_active; ++k)
@@ -84,19 +108,97 @@ Ranking rank_at(const system::System& s, Constraints& constraints, const Mask& m
   return out;
 }
 
+/// A uniform number in [-1, 1).
+double draw(std::mt19937& random) { return 2.0 * (random() / 4294967296.0) - 1.0; }
+
 /// The start, and up to four closed poses near it.
 std::vector<VectorX> poses_near(const system::Regime& s, const VectorX& start) {
   Constraints constraints(s);
+  const VectorX scale = trial_scale(s);
   std::vector<VectorX> out{start};
   std::mt19937 random(7);
   for (int sample = 0; sample < 12 && out.size() < 5; ++sample) {
     VectorX step(s.n_u), y = start;
     for (double& x : step)
-      x = (sample < 8 ? 2.0 : 0.5) * (2.0 * (random() / 4294967296.0) - 1.0);
-    retract(s, step.cwiseProduct(constraints.scale()), y);
+      x = (sample < 8 ? 1.0 : 0.25) * draw(random);
+    retract(s, step.cwiseProduct(scale), y);
     approach(s, constraints, y, nullptr);
     if (is_closed(constraints, y))
       out.push_back(y);
+  }
+  return out;
+}
+
+/// Marks rows of the mask as left out, for as long as it lives.
+class LeftOut {
+public:
+  LeftOut(system::System& s, const system::Regime& rows, const Mask& mask) {
+    system::for_each_row(s, [&](system::Row& row, bool) {
+      const Index lambda = rows.lambda(row);
+      if (lambda == system::redundant || !mask[static_cast<std::size_t>(lambda - s.lambda0)])
+        return;
+      row.dropped = true;
+      rows_.push_back(&row);
+    });
+  }
+  LeftOut(const LeftOut&) = delete;
+  LeftOut& operator=(const LeftOut&) = delete;
+  ~LeftOut() {
+    for (system::Row* row : rows_)
+      row->dropped = false;
+  }
+
+private:
+  std::vector<system::Row*> rows_;
+};
+
+/// Which of the rows of `asked` hold elsewhere, though their gradients nearly follow from the
+/// others here: the pose is singular. While the bodies move there and back as the others let them,
+/// the gap of a row that follows from the others changes as little as its gradient promises; that
+/// of a bar across a dead point curves by itself.
+Mask curved_rows(system::System& s, const system::Regime& rows, const Mask& asked,
+                 const Mask& left_out, const VectorX& start) {
+  constexpr double noise = 10.0 * nearly_closed; // of gaps [arms, rad]
+  constexpr double curved = 0.3;                 // second difference over first
+  Mask out(asked.size(), false);
+  const LeftOut without(s, rows, left_out);
+  const system::Regime others(s);
+  Constraints constraints(others), all(rows);
+  const VectorX scale = trial_scale(s);
+  std::mt19937 random(11);
+  VectorX gaps[2], rates;
+  const auto close_at = [&](VectorX& y, VectorX& gap) {
+    const bool closed = close_positions(s, constraints, y) < nearly_closed;
+    VectorX full = y;
+    system::resize(rows, full);
+    all.evaluate(full, gap, rates);
+    return closed;
+  };
+  for (int sample = 0; sample < 4; ++sample) {
+    VectorX step(s.n_u), there = start;
+    for (double& x : step)
+      x = draw(random);
+    system::resize(others, there);
+    VectorX back = there;
+    retract(s, step.cwiseProduct(scale), there);
+    bool closed = close_at(there, gaps[0]);
+    back.head(s.n_q) = 2.0 * back.head(s.n_q) - there.head(s.n_q); // as far the other way
+    system::normalise(s, back);
+    closed = close_at(back, gaps[1]) && closed;
+    if (!closed)
+      continue;
+    VectorX second = VectorX::Zero(all.n_rows()), first = second; // of the gaps [arms, rad]
+    for (Index i = 0; i < all.n_rows(); ++i)
+      if (asked[static_cast<std::size_t>(i)]) {
+        const double unit = all.size(i) / (all.is_angle(i) ? 1.0 : all.lever(i));
+        second[i] = 0.5 * unit * std::abs(gaps[0][i] + gaps[1][i]);
+        first[i] = 0.5 * unit * std::abs(gaps[0][i] - gaps[1][i]);
+      }
+    // A hinge out of line opens e sin(turn) one way, and e (1 - cos(turn)) across it.
+    const double least = std::max(noise, curved * first.maxCoeff());
+    for (Index i = 0; i < all.n_rows(); ++i)
+      if (second[i] > least)
+        out[static_cast<std::size_t>(i)] = true;
   }
   return out;
 }
@@ -177,6 +279,20 @@ std::string misfit_text(const Constraints& constraints, const RankedRow& row) {
           rounded_text(2.0 * row.pivot) +
           "; or make one of the joints one that holds less, or a "
           "spring_damper; solver.force = true holds all rows as they are");
+}
+
+[[noreturn]] void refuse_locked(const Constraints& constraints, const SparseMatrix& G,
+                                const std::vector<Index>& kept, Index row) {
+  const std::string key = constraints.key(row), name = in_quotes(key.substr(key.find('.') + 1));
+  throw ModelError(
+      key,
+      "the mechanism is locked in a singular pose: " + name + " and " +
+          partners(constraints, G, kept, row) +
+          " leave bodies no way to move but an infinitely small one (bars in line, as of a flat "
+          "triangle), against which no finite reaction holds (" +
+          constraints.name(row) +
+          "). Move a point or an axis out of line, leave a joint out, or make one of them a "
+          "spring_damper; solver.force cannot hold such rows");
 }
 
 /// Which of the rows of a mask to keep.
@@ -277,6 +393,38 @@ void check_drives(const system::Regime& s, const Constraints& constraints, const
   }
 }
 
+/// Refuses rows that are only nearly dependent: those of joints out of line with each other, and
+/// those that lock the mechanism in a singular pose.
+void judge_doubtful_rows(system::System& s, const system::Regime& rows,
+                         const Constraints& constraints, const Selection& held, const Mask& resting,
+                         const VectorX& start, const Fit& fit) {
+  // A closed pose of a locked mechanism is as far from the singular one as sqrt(gap) allows.
+  const double resolved = 3.0 * std::sqrt(nearly_closed);
+  Mask doubtful(resting.size(), false), left_out = resting;
+  left_out.flip();
+  for (const RankedRow& row : held.dropped)
+    doubtful[static_cast<std::size_t>(row.row)] = true;
+  for (std::size_t k = 0; k < held.kept.size(); ++k)
+    if (held.pivots[k] < suspicious)
+      doubtful[static_cast<std::size_t>(held.kept[k])] = true;
+  for (std::size_t i = 0; i < doubtful.size(); ++i)
+    left_out[i] = left_out[i] || doubtful[i];
+  const Mask curved = curved_rows(s, rows, doubtful, left_out, start);
+  const auto is_curved = [&](Index row) { return curved[static_cast<std::size_t>(row)]; };
+  for (const RankedRow& row : held.dropped)
+    if (is_curved(row.row))
+      refuse_locked(constraints, held.G, held.kept, row.row);
+  for (std::size_t k = 1; k < held.kept.size(); ++k) {
+    const std::vector<Index> before{held.kept.begin(),
+                                    held.kept.begin() + static_cast<std::ptrdiff_t>(k)};
+    if (held.pivots[k] < resolved && k >= held.at_start && is_curved(held.kept[k]))
+      refuse_locked(constraints, held.G, before, held.kept[k]);
+    if (!fit.force && held.pivots[k] < suspicious && held.pivots[k] < apart * held.pivots[k - 1] &&
+        !is_curved(held.kept[k]))
+      refuse_misaligned(constraints, held.G, before, {held.kept[k], held.pivots[k]});
+  }
+}
+
 } // namespace
 
 void drop_dependent_rows(system::System& s, const VectorX& start, const Fit& fit) {
@@ -293,12 +441,9 @@ void drop_dependent_rows(system::System& s, const VectorX& start, const Fit& fit
     return;
   const std::vector<VectorX> poses = poses_near(rows, start);
   // First what is held for ever, then what the drives move.
-  const Selection held = select(rows, resting, poses, fit.tolerance);
-  for (std::size_t k = 1; k < held.kept.size() && !fit.force; ++k)
-    if (held.pivots[k] < suspicious && held.pivots[k] < apart * held.pivots[k - 1])
-      refuse_misaligned(constraints, held.G,
-                        {held.kept.begin(), held.kept.begin() + static_cast<std::ptrdiff_t>(k)},
-                        {held.kept[k], held.pivots[k]});
+  const Selection held =
+      select(rows, resting, poses, fit.force ? std::min(dependent, fit.tolerance) : fit.tolerance);
+  judge_doubtful_rows(s, rows, constraints, held, resting, start, fit);
   if (static_cast<Index>(held.kept.size()) == s.n_u)
     s.notes.push_back("the constraints leave nothing to move");
   Mask rest(all.size(), false);
@@ -339,40 +484,6 @@ void drop_dependent_rows(system::System& s, const VectorX& start, const Fit& fit
   s.notes.push_back(std::to_string(names.size()) +
                     " redundant constraint rows, which follow from the others: " + joined(names));
   s.notes.insert(s.notes.end(), loose.begin(), loose.end());
-}
-
-DroppedGap largest_dropped_gap(const system::Regime& s, double t, const VectorX& y) {
-  system::Workspace<double> ws(s);
-  const VectorX rest = VectorX::Zero(s.n);
-  system::unpack<double>(s, y.data(), rest.data(), ws.bodies);
-  DroppedGap out;
-  const auto take = [&](const system::JointData& j, const std::string& key, const std::string& name,
-                        double gap, bool angle) {
-    const double part = std::abs(gap) / (angle ? 1.0 : smaller_lever(s, j));
-    if (out.name.empty() || part > out.part)
-      out = {key, name, std::abs(gap), part, angle};
-  };
-  for (const system::JointData& j : s.joints)
-    for (const system::RowData& row : j.rows)
-      if (row.dropped)
-        take(j, "joint." + j.name, "joints/" + j.name + " " + system::row_name(row.kind),
-             joint::basic_row<double>(row.kind, j.A, j.B, j.parameters,
-                                      system::joint_geometry<double>(j, ws.bodies))
-                 .value,
-             row.kind.kind == joint::BasicRow::Kind::perp);
-  for (const system::CouplerData& c : s.couplers) {
-    if (!c.dropped || c.velocity_level)
-      continue;
-    double gap = -s.offset(c) - s.drive(c, t)[0];
-    for (const system::CouplerData::Term& term : c.terms)
-      gap += term.factor * system::motion_row<double>(s, ws, term.motion).value;
-    const system::MotionData& m = s.motions[c.terms.front().motion];
-    if (m.motion.is_angle()) // the turns of the start are not those of y
-      gap = std::remainder(gap, 2.0 * pi);
-    take(s.joints[m.joint], "constraint." + c.name, "constraints/" + c.name, gap,
-         m.motion.is_angle());
-  }
-  return out;
 }
 
 } // namespace hydrodae::build

@@ -2,8 +2,6 @@
 /// Constraint rows that follow from others, exactly or but for a small misalignment of their
 /// joints.
 
-#include <string>
-
 #include "hydrodae/system/regime.h"
 
 namespace hydrodae::build {
@@ -21,14 +19,5 @@ struct Fit {
 /// are so nearly dependent that a misalignment locks the mechanism, and where drives contradict
 /// each other.
 void drop_dependent_rows(system::System& system, const VectorX& y, const Fit& fit);
-
-/// The largest gap of a row that was dropped, at y and t.
-struct DroppedGap {
-  std::string key, name; ///< "joint.lower", "joints/lower gap along x"; empty: none was dropped
-  double gap = 0.0;      ///< [m or rad]
-  double part = 0.0;     ///< of the lever, or of one radian
-  bool angle = false;
-};
-DroppedGap largest_dropped_gap(const system::Regime& regime, double t, const VectorX& y);
 
 } // namespace hydrodae::build

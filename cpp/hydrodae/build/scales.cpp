@@ -12,20 +12,24 @@ namespace hydrodae::build {
 
 namespace {
 
-/// The arm at which the body feels its rotation: radius of gyration, farthest joint, or size of the
-/// displaced volume [m].
-double lever(const system::System& s, const model::Scene& scene, int body) {
-  const system::BodyData& b = s.bodies[body];
+/// Distance of the farthest joint from the centre of gravity, 0: none is off it [m].
+double farthest_joint(const system::System& s, int body) {
   double arm = 0.0;
-  const double gyration = b.inertia.diagonal().maxCoeff();
-  if (b.mass > 0.0)
-    arm = std::sqrt(gyration / b.mass);
   for (const system::JointData& j : s.joints) {
     if (j.A.body == body)
       arm = std::max(arm, j.A.point.norm());
     if (j.B.body == body)
       arm = std::max(arm, j.B.point.norm());
   }
+  return arm;
+}
+
+/// The arm at which the body feels its rotation: radius of gyration, farthest joint, or size of the
+/// displaced volume [m].
+double lever(const system::System& s, const model::Scene& scene, int body, double farthest) {
+  const system::BodyData& b = s.bodies[body];
+  const double gyration = b.inertia.diagonal().maxCoeff();
+  double arm = b.mass > 0.0 ? std::max(std::sqrt(gyration / b.mass), farthest) : farthest;
   const std::optional<std::string>& wet = scene.bodies[body].hydro;
   if (arm == 0.0 && wet && scene.database)
     for (const hydro::DatabaseBody& d : scene.database->bodies)
@@ -40,7 +44,9 @@ void set_body_scales(const model::Scene& scene, system::System& s) {
   s.scales_follow = !scene.solver.length_scale;
   for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i) {
     system::BodyData& b = s.bodies[i];
-    b.lever = lever(s, scene, i);
+    const double farthest = farthest_joint(s, i);
+    b.lever = lever(s, scene, i, farthest);
+    b.arm = farthest > 0.0 ? farthest : b.lever;
     b.length_scale = scene.solver.length_scale.value_or(0.1 * b.lever);
     b.time_scale_known = scene.solver.time_scale.has_value() || s.gravity > 0.0;
     b.time_scale =

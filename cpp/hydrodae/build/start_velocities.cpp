@@ -1,6 +1,6 @@
 #include "hydrodae/build/start_velocities.h"
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,6 @@ namespace {
 constexpr double exact = 1e-12;  ///< rates, in units of their scale, that count as none
 constexpr double digits = 1e-6;  ///< of the largest velocity given: below, nothing is said
 constexpr double allowed = 1e-3; ///< likewise: above, the case contradicts itself
-constexpr double weight = 1e-6;  ///< of the relative motion at joints against the conditions
 
 /// Conditions on the velocities, in displacements of one unit per second: matrix x = target. The
 /// constraints come first, then what the case gives.
@@ -103,62 +102,39 @@ Conditions conditions(const system::System& s, const std::vector<BodyStart>& giv
   return out;
 }
 
-/// Relative motion of the bodies at each joint, six rows, in units of the smaller body.
-SparseMatrix relative_motion(const system::System& s, const Constraints& constraints) {
+/// Displacements by coordinates y in which the kinetic energy is |y|^2 / 2: x = L^-T y, with
+/// L L^T the mass matrix of each body. Bodies without a mass follow from the others.
+SparseMatrix energy_coordinates(const system::System& s, const Constraints& constraints) {
+  constexpr double next_to_nothing = 1e-8; // of the masses that count
   Entries entries;
-  Index row = 0;
-  const auto& states = constraints.workspace().bodies;
-  for (const system::JointData& j : s.joints) {
-    if (j.rows.empty())
-      continue; // a coordinate, or a rope that may be slack
-    double length = INFINITY, angle = 1.0;
-    for (int body : {j.A.body, j.B.body})
-      if (body >= 0 && s.bodies[body].n_active > 0 && s.bodies[body].length_scale < length) {
-        length = s.bodies[body].length_scale;
-        angle = length / s.bodies[body].lever;
-      }
-    const Vector3 point =
-        j.B.body >= 0 ? Vector3(states[j.B.body].r + states[j.B.body].R * j.B.point) : j.B.point;
-    for (int side = 0; side < 2; ++side) {
-      const int body = side == 0 ? j.A.body : j.B.body;
-      if (body < 0)
-        continue;
-      const system::BodyData& b = s.bodies[body];
-      const Matrix3& R = states[body].R;
-      const double sign = side == 0 ? -1.0 : 1.0;
+  for (const system::BodyData& b : s.bodies) {
+    MatrixX mass = MatrixX::Zero(b.n_active, b.n_active);
+    for (int i = 0; i < b.n_active; ++i)
       for (int k = 0; k < b.n_active; ++k) {
-        const Index u = b.u0 - s.u0 + k;
-        const int c = b.active[k];
-        const double unit = sign * constraints.scale()[u];
-        if (c < 3) {
-          entries.emplace_back(row + c, u, unit / length);
-          continue;
-        }
-        const Vector3 w = R.col(c - 3), v = w.cross(point - states[body].r);
-        for (Index i = 0; i < 3; ++i) {
-          entries.emplace_back(row + i, u, unit * v[i] / length);
-          entries.emplace_back(row + 3 + i, u, unit * w[i] / angle);
-        }
+        const int c = b.active[i], d = b.active[k];
+        const double own =
+            i == k ? next_to_nothing * b.scale_mass * (c < 3 ? 1.0 : b.lever * b.lever) : 0.0;
+        const double both = c >= 3 && d >= 3 ? b.inertia(c - 3, d - 3) : c == d ? b.mass : 0.0;
+        mass(i, k) = (own + both) * constraints.scale()[b.u0 - s.u0 + i] *
+                     constraints.scale()[b.u0 - s.u0 + k];
       }
-    }
-    row += 6;
+    const MatrixX by = mass.llt().matrixU().solve(MatrixX::Identity(b.n_active, b.n_active));
+    for (int i = 0; i < b.n_active; ++i)
+      for (int k = i; k < b.n_active; ++k)
+        entries.emplace_back(b.u0 - s.u0 + i, b.u0 - s.u0 + k, by(i, k));
   }
-  return matrix_of(entries, row, s.n_u);
+  return matrix_of(entries, s.n_u, s.n_u);
 }
 
-/// Of all x that meet the conditions as `x` does, the one with the least relative motion.
-VectorX quietest(const Conditions& all, const SparseMatrix& relative, const VectorX& x) {
+/// Of all x that meet the conditions as `x` does, the one of least kinetic energy: the motion of
+/// bodies that are struck at rest (Kelvin's theorem; Lamb, Hydrodynamics, section 136).
+VectorX least_energy(const Conditions& all, const SparseMatrix& coordinates, const VectorX& x) {
   const VectorX met = all.matrix * x;
-  const SparseMatrix A_T = all.matrix.transpose(), J_T = relative.transpose();
-  SparseMatrix normal = A_T * all.matrix + weight * SparseMatrix(J_T * relative);
-  for (Index i = 0; i < normal.rows(); ++i)
-    normal.coeffRef(i, i) += 1e-6 * weight;
-  const Eigen::SimplicialLDLT<SparseMatrix> ldlt(normal);
-  VectorX out = VectorX::Zero(x.size());
-  for (int pass = 0; pass < 4; ++pass) // takes back what the last term does
-    out += ldlt.solve(VectorX(A_T * (met - all.matrix * out) - weight * (J_T * (relative * out))));
-  for (int pass = 0; pass < 2; ++pass)
-    out += smallest_solution(all.matrix, met - all.matrix * out);
+  const SparseMatrix matrix = all.matrix * coordinates;
+  VectorX y = VectorX::Zero(x.size());
+  for (int pass = 0; pass < 3; ++pass) // linear; the further passes remove rounding
+    y += smallest_solution(matrix, met - matrix * y);
+  const VectorX out = coordinates * y;
   return out.allFinite() ? out : x;
 }
 
@@ -310,7 +286,7 @@ void start_velocities(system::System& s, const std::vector<BodyStart>& given,
     for (int pass = 0; pass < 2; ++pass) // the constraints themselves hold exactly
       x += smallest_solution(G, all.target.head(all.n_constraints) - G * x);
     judge(s, constraints, all, x);
-    x = quietest(all, relative_motion(s, constraints), x);
+    x = least_energy(all, energy_coordinates(s, constraints), x);
     note_completed(s, all, x);
     u = x.cwiseProduct(constraints.scale());
   }

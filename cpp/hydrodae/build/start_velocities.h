@@ -17,7 +17,7 @@ struct BodyStart {
 
 /// Velocities of y at its pose. What the case gives (velocities of bodies, rates of joints) is
 /// kept; the others follow from the constraints and their drives at t = 0, and where these leave a
-/// choice, bodies move with the bodies that they are joined to. What was completed, or projected
+/// choice, the kinetic energy is the least. What was completed, or projected
 /// because its digits do not fit, is noted. Throws ModelError naming the body or joint whose
 /// velocity contradicts the constraints by more than 1e-3 of the largest one given.
 void start_velocities(system::System& system, const std::vector<BodyStart>& given,

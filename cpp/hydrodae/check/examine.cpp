@@ -301,6 +301,7 @@ std::string report(const model::Scene& scene) {
   out << "; " << pattern.nonzeros() << " nonzeros in the Jacobian\n"
       << "  mobility: " << build::mobility(s) << " degrees of freedom left by " << s.n_lambda
       << " constraint rows\n";
+  write_sizes(out, scene, s, named.width());
   write_method(out, scene);
   write_costs(out, element_costs(s, pattern));
   advise_bodies(out, s, never_excited(built, pattern));

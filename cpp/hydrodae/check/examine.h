@@ -30,6 +30,11 @@ std::vector<ElementCost> element_costs(const system::Regime& regime,
 /// Empty where the accelerations cannot be determined.
 std::vector<bool> never_excited(const system::System& system, const system::Pattern& pattern);
 
+/// Size of the results file, and the memory that samples take during a run.
+/// @param width values of a sample
+void write_sizes(std::ostream& out, const model::Scene& scene, const system::Regime& regime,
+                 std::size_t width);
+
 /// With which method "auto" begins, why, and which follow; nothing where a method is named, or a
 /// run could not start.
 void write_method(std::ostream& out, const model::Scene& scene);

@@ -1,8 +1,14 @@
 /// What the elements of a scene cost.
 
 #include <algorithm>
+#include <cmath>
+#include <ostream>
 
+#include "hydrodae/accuracy/comparison.h"
 #include "hydrodae/check/examine.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/io/results_file.h"
+#include "hydrodae/run/controllers.h"
 
 namespace hydrodae::check {
 
@@ -77,6 +83,22 @@ std::vector<ElementCost> element_costs(const Regime& s, const system::Pattern& p
   if (between > 0)
     elements.push_back({"between bodies", 0, 0, between});
   return elements;
+}
+
+void write_sizes(std::ostream& out, const model::Scene& scene, const Regime& s, std::size_t width) {
+  const double samples = 1.0 + std::floor(scene.solver.end_time / scene.output.step),
+               row = 8.0 * static_cast<double>(width + 1);
+  const auto megabytes = [](double bytes) { return rounded_text(bytes / 1e6, 3) + " MB"; };
+  double memory = 2.0 * io::rows_per_chunk * row; // here, and in HDF5
+  if (scene.solver.accuracy != "none") {
+    const accuracy::Movers movers(s);
+    const double spans = static_cast<double>(accuracy::Comparison::most_spans),
+                 waiting = run::asks_outside(scene) ? samples : accuracy::Comparison::most_ahead;
+    memory += std::min(samples, spans) * (8.0 + 32.0 * static_cast<double>(movers.size())) +
+              std::min(samples, waiting) * 8.0 * static_cast<double>(movers.width());
+  }
+  out << "  results: " << number_text(samples) << " samples of " << width << " values, "
+      << megabytes(samples * row) << "; samples take up to " << megabytes(memory) << " of memory\n";
 }
 
 } // namespace hydrodae::check

@@ -11,6 +11,7 @@
 #include "hydrodae/run/simulation.h"
 #include "hydrodae/sanity/sanity.h"
 #include "hydrodae/statics/equilibrium.h"
+#include "hydrodae/statics/fit_at_waves.h"
 
 namespace hydrodae::check {
 
@@ -98,8 +99,8 @@ void write_sanity(std::ostream& out, const model::Scene& scene, const System& s)
     if (group.wet)
       out << "  " << sanity::describe(s, group) << '\n';
   std::vector<Finding> findings = sanity::look_over(scene, s);
-  for (const Finding& finding : look_at_rest(scene, s))
-    findings.push_back(finding);
+  for (const std::vector<Finding>& more : {look_at_rest(scene, s), statics::look_at_fit(scene, s)})
+    findings.insert(findings.end(), more.begin(), more.end());
   for (const Finding& finding : findings)
     out << (finding.serious ? "  looks wrong: " : "  look at: ") << finding.text << '\n';
 }

@@ -39,7 +39,7 @@ struct Fmu : Outside {
   std::vector<std::string> fmu_inputs, fmu_outputs, parameters;
   std::vector<double> parameter_values, fmu_factors;
   std::vector<std::string> text_parameters, text_values;
-  std::string path, sha256; ///< of that file, found from the folder of the case
+  std::string path; ///< of that file, found from the folder of the case
 
   std::optional<Fault> fault() const {
     const auto unequal = [](const char* key, std::size_t n, const char* other, std::size_t wanted) {

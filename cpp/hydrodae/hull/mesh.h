@@ -11,6 +11,10 @@ using Vertices = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>; ///<
 using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;   ///< (m, 3)
 using Columns = Eigen::Array<double, Eigen::Dynamic, 3>; ///< (n, 3), each coordinate contiguous
 
+/// Vertices are nearer than that to their origin, so that all integrals over the surface are
+/// finite: the second moments are sums of fifth powers [m].
+inline constexpr double farthest = 1e60;
+
 /// Edge from vertex a to b. Triangle `left` passes it from a to b, triangle `right` from b to a.
 struct Edge {
   int a = 0, b = 0, left = 0, right = 0;
@@ -32,10 +36,12 @@ struct Mesh {
 };
 
 /// Checks a surface and prepares it. Throws Error, naming the place, if
-/// - there is no triangle, a number is not finite, or a triangle names a missing vertex,
+/// - there is no triangle, a vertex is beyond `farthest`, or a triangle names a missing one,
 /// - an edge does not belong to two triangles (the surface has a hole, or vertices are doubled),
 /// - two triangles pass their common edge in the same direction (the normals disagree),
-/// - a shell encloses a negative volume (its normals point inwards) or none.
+/// - a shell encloses a negative volume (its normals point inwards) or none,
+/// - shells cross, or one lies inside another. Shells that touch may share a hundredth of the
+/// volume.
 ///
 /// @param origin of the body, in the axes of `vertices`; messages name places in these
 Mesh make_mesh(const Vertices& vertices, const Triangles& triangles,

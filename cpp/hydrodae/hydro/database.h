@@ -61,7 +61,6 @@ struct RadiationKernel {
 
 struct Database {
   std::string path;
-  std::string sha256;                   ///< of the file
   double rho = 0.0;                     ///< [kg/m3]
   double gravity = 0.0;                 ///< [m/s2]
   double water_depth = 0.0;             ///< [m], may be infinite

@@ -16,7 +16,7 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double equal = 1e-3;         ///< of the largest of a coordinate
-constexpr double equal_damping = 2e-2; ///< likewise; frequencies of a table are no exact peaks
+constexpr double equal_damping = 5e-2; ///< mean over the frequencies, weighted by the damping
 constexpr double noise = 1e-5;         ///< of the largest of a unit
 constexpr double same_place = 1e-6;    ///< [m], [rad]
 constexpr double same_step = 1e-2;     ///< files round degrees, relative
@@ -108,11 +108,30 @@ std::optional<Image> image_under(const Database& db, const std::vector<Coordinat
   return out;
 }
 
-/// What is small for each coordinate, from its largest values and those of its unit.
-VectorX small(const std::vector<Coordinate>& all, const VectorX& largest, double share) {
-  double unit[2] = {0.0, 0.0};
+/// Size of the largest body, (A / rho)^(1/3) [m].
+double lever(const Database& db, const std::vector<Coordinate>& all) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (const auto k = static_cast<Eigen::Index>(i); !all[i].turns())
+      largest = std::max(largest, db.added_mass_inf(k, k));
+  return std::cbrt(largest / db.rho);
+}
+
+/// The largest value of each kind, forces and moments; a force at its lever is a moment.
+std::array<double, 2> units(const std::vector<Coordinate>& all, const VectorX& largest,
+                            double moment) {
+  std::array<double, 2> unit{};
   for (std::size_t i = 0; i < all.size(); ++i)
     unit[all[i].turns()] = std::max(unit[all[i].turns()], largest[static_cast<Eigen::Index>(i)]);
+  unit[1] = std::max(unit[1], moment * unit[0]);
+  return unit;
+}
+
+/// What is small for each coordinate, from its largest values and those of its unit; `moment`: what
+/// moments are of forces, by the lever.
+VectorX small(const std::vector<Coordinate>& all, const VectorX& largest, double moment,
+              double share) {
+  const std::array<double, 2> unit = units(all, largest, moment);
   VectorX out(largest.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
@@ -138,7 +157,8 @@ bool keeps_added_mass(const Database& db, const std::vector<Coordinate>& all, co
   VectorX largest = own;
   for (Eigen::Index i = 0; i < own.size(); ++i)
     largest[i] = std::max(own[i], own[image.from[static_cast<std::size_t>(i)]]);
-  const VectorX off = (small(all, largest, equal) / equal).cwiseSqrt();
+  const double arm = lever(db, all);
+  const VectorX off = (small(all, largest, arm * arm, equal) / equal).cwiseSqrt();
   for (Eigen::Index i = 0; i < A.rows(); ++i)
     for (Eigen::Index j = 0; j < A.cols(); ++j) {
       const double other =
@@ -184,11 +204,12 @@ double group_velocity(const Database& db, double omega, double k) {
   return 0.5 * omega / k * (1.0 + (kh < 50.0 ? 2.0 * kh / std::sinh(2.0 * kh) : 0.0));
 }
 
-/// Does a force of heading 0, turned round, radiate the damping of the database?
-bool radiates(const Database& db, const std::vector<Coordinate>& all, const Image& quarter,
-              const Eigen::MatrixXcd& ahead) {
+/// What a force of heading 0, turned round, radiates, against the damping of the database: the mean
+/// difference over the frequencies, weighted by the damping, of the coordinate that is off most.
+double radiation_miss(const Database& db, const std::vector<Coordinate>& all, const Image& quarter,
+                      const Eigen::MatrixXcd& ahead) {
   if (std::ssize(db.damping) != db.omega.size())
-    return false;
+    return INFINITY;
   MatrixX B(db.omega.size(), ahead.cols()), expected(B.rows(), B.cols());
   for (Eigen::Index w = 0; w < B.rows(); ++w) {
     B.row(w) = db.damping[static_cast<std::size_t>(w)].diagonal().transpose();
@@ -202,8 +223,17 @@ bool radiates(const Database& db, const std::vector<Coordinate>& all, const Imag
       expected(w, c) = factor * pi * squares;
     }
   }
-  const VectorX off = small(all, B.cwiseAbs().colwise().maxCoeff().transpose(), equal_damping);
-  return alike(B.cast<Complex>(), expected.cast<Complex>(), off);
+  const VectorX largest = B.cwiseAbs().colwise().maxCoeff().transpose();
+  const double arm = lever(db, all);
+  const std::array<double, 2> unit = units(all, largest, arm * arm);
+  double out = 0.0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto c = static_cast<Eigen::Index>(i);
+    if (largest[c] > equal * unit[all[i].turns()])
+      out = std::max(out, (expected - B).col(c).cwiseAbs().dot(B.col(c).cwiseAbs()) /
+                              B.col(c).squaredNorm());
+  }
+  return out;
 }
 
 const Eigen::Matrix2d& plane_y() {
@@ -222,12 +252,13 @@ bool revolve(Database& db, const std::vector<Coordinate>& all) {
   if (!quarter || !mirror || !keeps_added_mass(db, all, *quarter) ||
       !keeps_added_mass(db, all, *mirror))
     return false;
-  const VectorX off = small(all, largest_forces(db), equal);
+  const VectorX off = small(all, largest_forces(db), lever(db, all), equal);
   const auto ahead = [&](const std::vector<Eigen::MatrixXcd>& table, Eigen::Index h) {
     return turned(all, *quarter, table[static_cast<std::size_t>(h)], -db.heading[h]);
   };
   const Eigen::MatrixXcd first = ahead(db.excitation, 0);
-  if (!alike(mirror->of(first), first, 2.0 * off) || !radiates(db, all, *quarter, first))
+  if (!alike(mirror->of(first), first, 2.0 * off) ||
+      !(radiation_miss(db, all, *quarter, first) <= equal_damping))
     return false;
   for (Eigen::Index h = 1; h < db.heading.size(); ++h)
     if (!alike(ahead(db.excitation, h), first, 2.0 * off))
@@ -293,7 +324,7 @@ std::vector<Found> going_on(const VectorX& heading, const std::vector<Found>& im
 
 /// Mirror images about the planes that the tables show. @returns the planes in words
 std::string mirror(Database& db, const std::vector<Coordinate>& all) {
-  const VectorX off = small(all, largest_forces(db), equal);
+  const VectorX off = small(all, largest_forces(db), lever(db, all), equal);
   std::vector<Image> images;
   std::string words;
   const std::pair<Eigen::Matrix2d, const char*> planes[] = {{plane_y(), "y = 0"},

@@ -79,8 +79,8 @@ private:
   std::map<int, std::unique_ptr<StageNewton>> methods_; ///< by number of stages
   StageNewton* newton_ = nullptr;
   double h_ = 0.0;
-  double reach_ = 0.0; ///< time to which the error control would have stepped [s]
-  StageSolver::Start now_;
+  double reach_ = 0.0;              ///< time to which the error control would have stepped [s]
+  StageSolver::Start now_, before_; ///< at the end of the last step; before it, where it may fail
   StagePolynomial last_;
   StageSolver solver_;
   MatrixX rates_; ///< of the stages
@@ -166,6 +166,8 @@ double Collocation::drive_error(double h) {
 
 void Collocation::accept(double h) {
   const RungeKutta& rk = newton_->rk();
+  if (project_)
+    before_ = now_;
   newton_->rates(h, solver_.stages(), rates_);
   last_.set_method(rk);
   last_.accept(now_.t, h, now_.y, solver_.stages(), rates_);
@@ -181,8 +183,11 @@ void Collocation::accept(double h) {
     last_.evaluate_rates(1.0, now_.yp);
     if (project_ &&
         (!saddle_->accelerations(now_.t, now_.y, now_.yp) || !saddle_->project(now_.t, now_.y) ||
-         !saddle_->accelerations(now_.t, now_.y, now_.yp)))
+         !saddle_->accelerations(now_.t, now_.y, now_.yp))) {
+      now_ = before_;
+      last_.clear(); // there is no such step
       fail(Reason::drift, "the constraints cannot be met at the end of the step");
+    }
   }
   e_.accept(now_.t, now_.y, now_.yp);
   if (nodes_.size() <= 2)

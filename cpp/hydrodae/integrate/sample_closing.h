@@ -26,8 +26,9 @@ public:
   /// succeed (a singular one) they stay.
   void close(double t, VectorX& y);
 
-  /// Reactions and accelerations of a scene at rest, from the loads at t: steps are as long as the
-  /// motion allows, and without motion the multipliers between their ends follow no load.
+  /// Reactions and accelerations from one solve by the loads at t. At rest steps are as long as the
+  /// motion allows, and the multipliers between their ends follow no load; those of BDF are in no
+  /// error test.
   void hold(double t, VectorX& y, VectorX& yp);
 
 private:

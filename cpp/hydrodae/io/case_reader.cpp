@@ -160,11 +160,15 @@ model::Scene read_tables(const toml::table& root, const std::string& name) {
   model::Scene scene;
   const Table top{root, "the case", "", {name, 1, 1}, "", ""};
   std::vector<std::string> keys = model::table_names();
-  keys.insert(keys.begin(), "title");
+  keys.insert(keys.begin(), {"title", "missing"});
   check_keys(top, keys);
-  Key title{"title", "-", any_value, {}};
-  if (const toml::node* node = find_key(top, title, scene.places))
-    read_value(*node, title, scene.title);
+  const auto read_text = [&](const char* word, auto& out) {
+    Key key{word, "-", any_value, {}};
+    if (const toml::node* node = find_key(top, key, scene.places))
+      read_value(*node, key, out);
+  };
+  read_text("title", scene.title);
+  read_text("missing", scene.missing);
   model::for_each_table(TableReader{root, scene});
   return scene;
 }
@@ -173,21 +177,34 @@ CaseError error_at(const model::Scene& scene, const std::string& key, const std:
   return {scene.places.at(key), key, fault};
 }
 
-/// `path` is relative to the case; `key` is the one that has it.
-std::shared_ptr<const hydro::Database>
-read_database(const model::Scene& scene, const std::string& directory, const std::string& path,
-              const std::string& key, const std::string& what) {
-  const std::filesystem::path whole = std::filesystem::path(directory) / path;
-  // Axes that turn with the bodies may need any heading; symmetry is judged by the damping, too.
-  const bool turns = scene.hydro->axes == "yaw" && !scene.waves.empty();
+/// Calls `read(path)` with the file that `key` names, relative to the case, and adds it to the
+/// files of the scene. `what` says in messages where it is named.
+template <class Read>
+void read_file(model::Scene& scene, const std::string& directory, const std::string& key,
+               const std::string& name, const std::string& what, const Read& read) {
+  const std::string path = (std::filesystem::path(directory) / name).lexically_normal().string();
   try {
-    return std::make_shared<const hydro::Database>(
-        read_hydro_file(whole.lexically_normal().string(),
-                        {!scene.waves.empty(), turns || scene.hydro->radiation == "constant",
-                         scene.hydro->radiation == "convolution"}));
-  } catch (const CaseError& error) {
+    read(path);
+    scene.files.push_back({key, name, path, sha256_of_file(path)});
+  } catch (const Error& error) {
     throw error_at(scene, key, what + ": " + error.what());
   }
+}
+
+/// `path` is relative to the case; `key` is the one that has it.
+std::shared_ptr<const hydro::Database>
+read_database(model::Scene& scene, const std::string& directory, const std::string& path,
+              const std::string& key, const std::string& what) {
+  std::shared_ptr<const hydro::Database> out;
+  // In waves a fit is held against the tables; symmetry is judged by the damping, too.
+  const bool waves = !scene.waves.empty();
+  const std::string& radiation = scene.hydro->radiation;
+  const bool judged = waves && (scene.hydro->axes == "yaw" || radiation == "exponential");
+  const HydroTables tables{waves, judged || radiation == "constant", radiation == "convolution"};
+  read_file(scene, directory, key, path, what, [&](const std::string& whole) {
+    out = std::make_shared<const hydro::Database>(read_hydro_file(whole, tables));
+  });
+  return out;
 }
 
 void read_databases(model::Scene& scene, const std::string& directory) {
@@ -213,13 +230,8 @@ void read_records(model::Scene& scene, const std::string& directory) {
       throw error_at(scene, key,
                      "wave " + in_quotes(wave->name) +
                          ": give either 'file', or 'time' and 'elevation'");
-    const std::filesystem::path path = std::filesystem::path(directory) / *wave->file;
-    try {
-      read_record(path.lexically_normal().string(), wave->time, wave->elevation);
-    } catch (const CaseError& error) {
-      throw error_at(scene, key,
-                     "key 'file' in [[wave]] " + in_quotes(wave->name) + ": " + error.what());
-    }
+    read_file(scene, directory, key, *wave->file, "key 'file' in [[wave]] " + in_quotes(wave->name),
+              [&](const std::string& path) { read_record(path, wave->time, wave->elevation); });
   }
 }
 
@@ -228,31 +240,25 @@ void read_meshes(model::Scene& scene, const std::string& directory) {
   for (model::Body& body : scene.bodies) {
     if (!body.mesh)
       continue;
-    const std::filesystem::path path = std::filesystem::path(directory) / *body.mesh;
-    try {
-      const Surface surface = read_surface(path.lexically_normal().string());
-      body.hull = std::make_shared<hull::Mesh>(hull::make_mesh(
-          surface.vertices, surface.triangles, body.center_of_gravity - body.mesh_origin));
-    } catch (const Error& error) {
-      throw error_at(scene, "body." + body.name + ".mesh",
-                     "key 'mesh' in [[body]] " + in_quotes(body.name) + ": " + error.what());
-    }
+    read_file(scene, directory, "body." + body.name + ".mesh", *body.mesh,
+              "key 'mesh' in [[body]] " + in_quotes(body.name), [&](const std::string& path) {
+                const Surface surface = read_surface(path);
+                body.hull = std::make_shared<hull::Mesh>(
+                    hull::make_mesh(surface.vertices, surface.triangles,
+                                    body.center_of_gravity - body.mesh_origin));
+              });
   }
 }
 
-/// Where FMUs of controllers are, and which.
+/// Where FMUs of controllers are.
 void find_fmus(model::Scene& scene, const std::string& directory) {
   for (model::Controller& any : scene.controllers) {
     auto* c = any.as<control::Fmu>();
     if (!c || c->file.empty())
       continue;
-    c->path = (std::filesystem::path(directory) / c->file).lexically_normal().string();
-    try {
-      c->sha256 = sha256_of_file(c->path);
-    } catch (const CaseError& error) {
-      throw error_at(scene, "controller." + c->name + ".file",
-                     "key 'file' in [[controller]] " + in_quotes(c->name) + ": " + error.what());
-    }
+    read_file(scene, directory, "controller." + c->name + ".file", c->file,
+              "key 'file' in [[controller]] " + in_quotes(c->name),
+              [&](const std::string& path) { c->path = path; });
   }
 }
 

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string_view>
 
@@ -13,7 +14,8 @@
 namespace hydrodae::io::hdf5 {
 namespace {
 
-constexpr std::size_t header = 16; ///< bytes of the header of a collection, and of an object
+constexpr std::size_t piece = 1 << 22; ///< of a file, whole pages: so much of it is in memory
+constexpr std::size_t header = 16;     ///< bytes of the header of a collection, and of an object
 
 /// Little-endian number of `size` bytes.
 std::uint64_t number_at(std::string_view bytes, std::size_t at, std::size_t size) {
@@ -65,6 +67,11 @@ public:
                                 : std::string_view(static_cast<const char*>(start_), size_);
   }
 
+  /// Leaves the memory of the piece from `first` on to others.
+  void forget(std::size_t first) const {
+    madvise(static_cast<char*>(start_) + first, std::min(piece, size_ - first), MADV_DONTNEED);
+  }
+
 private:
   void* start_ = MAP_FAILED;
   std::size_t size_ = 0;
@@ -76,14 +83,18 @@ void check_collections(const std::string& path) {
   constexpr std::string_view mark("GCOL\1\0\0\0", 8);
   const MappedFile file(path);
   const std::string_view bytes = file.bytes();
-  for (std::size_t at = 0; (at = bytes.find(mark, at)) != std::string_view::npos;
-       at += mark.size()) {
-    if (bytes.size() - at < header)
-      return;
-    const std::uint64_t size = number_at(bytes, at + 8, 8);
-    if (size < header || size > bytes.size() - at || !sound(bytes, at, size))
-      throw CaseError(path + ": damaged: a collection of texts at byte " + std::to_string(at) +
-                      " is not readable");
+  for (std::size_t first = 0; first < bytes.size(); first += piece) {
+    const std::string_view here = bytes.substr(first, piece + mark.size() - 1);
+    for (std::size_t k = 0; (k = here.find(mark, k)) != std::string_view::npos; k += mark.size()) {
+      const std::size_t at = first + k;
+      if (bytes.size() - at < header)
+        return;
+      const std::uint64_t size = number_at(bytes, at + 8, 8);
+      if (size < header || size > bytes.size() - at || !sound(bytes, at, size))
+        throw CaseError(path + ": damaged: a collection of texts at byte " + std::to_string(at) +
+                        " is not readable");
+    }
+    file.forget(first);
   }
 }
 

@@ -8,7 +8,6 @@
 
 #include "hydrodae/core/text.h"
 #include "hydrodae/io/hdf5_input.h"
-#include "hydrodae/io/sha256.h"
 
 namespace hydrodae::io {
 namespace {
@@ -234,7 +233,6 @@ hydro::Database read_hydro_file(const std::string& path, const HydroTables& tabl
   check_format(file);
   hydro::Database database;
   database.path = path;
-  database.sha256 = sha256_of_file(path);
   database.rho = file.number("/", "rho");
   database.gravity = file.number("/", "gravity");
   database.water_depth = file.number("/", "water_depth");

@@ -7,6 +7,7 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/io/sha256.h"
 
 namespace hydrodae::io {
 
@@ -104,9 +105,12 @@ void give(element::LibraryLaw& force, bool on_body, const std::vector<Offer>& of
 
 void join_libraries(const std::vector<std::string>& paths, model::Scene& scene) {
   std::vector<Offer> offers;
-  for (const std::string& path : paths)
+  for (const std::string& path : paths) {
     for (const Offer& offer : open(path))
       offers.push_back(offer);
+    scene.files.push_back(
+        {"library", std::filesystem::path(path).filename().string(), path, sha256_of_file(path)});
+  }
   if (offers.empty())
     return;
   const auto give_all = [&](auto& list) {

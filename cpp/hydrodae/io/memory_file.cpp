@@ -44,7 +44,9 @@ std::vector<double> read_list(hid_t file, const std::string& name, const std::st
   const Handle space = checked(H5Dget_space(dataset), H5Sclose, what);
   const hssize_t size = checked(H5Sget_simple_extent_npoints(space), what);
   // Numbers written by us lie in the file as they are: a size beyond it is damage.
-  if (H5Dget_storage_size(dataset) != static_cast<hsize_t>(size) * sizeof(double))
+  const hsize_t stored = H5Dget_storage_size(dataset);
+  if (size < 0 || stored % sizeof(double) != 0 ||
+      stored / sizeof(double) != static_cast<hsize_t>(size))
     throw CaseError(what + ": " + name + " is damaged");
   std::vector<double> out(static_cast<std::size_t>(size));
   if (size > 0)
@@ -96,8 +98,8 @@ void write_memory(const std::string& path, const MemoryFile& content) {
 Texts read_texts(const std::string& path) {
   const hdf5::Input input(path);
   Texts out;
-  for (const char* name :
-       {"format", "version", "case_text", "case_overrides", "hydro_sha256", "scene", "sha256"})
+  for (const char* name : {"format", "version", "case_text", "case_overrides", "input_files",
+                           "scene", "sha256", "verify", "stopped"})
     if (input.has_attribute("/", name))
       out[name] = input.text("/", name);
   return out;

@@ -50,13 +50,24 @@ bool is_binary_stl(const std::string& bytes) {
   return bytes.size() == stl_head + stl_triangle * n;
 }
 
-Corners binary_stl(const std::string& bytes) {
+Corner checked(const Corner& corner, const std::string& path, std::size_t line) {
+  for (const double x : corner)
+    if (!(std::abs(x) < hull::farthest)) {
+      const std::string text = number_text(x) + " m is no place of a vertex; give a finite number";
+      if (line > 0)
+        refuse(path, line, text);
+      throw CaseError({path}, "", text);
+    }
+  return corner;
+}
+
+Corners binary_stl(const std::string& bytes, const std::string& path) {
   Corners out;
   for (std::size_t at = stl_head; at < bytes.size(); at += stl_triangle)
     for (std::size_t k = 1; k <= 3; ++k) {
       std::array<float, 3> place{};
       std::memcpy(place.data(), bytes.data() + at + k * sizeof place, sizeof place);
-      out.push_back({place[0], place[1], place[2]});
+      out.push_back(checked({place[0], place[1], place[2]}, path, 0));
     }
   return out;
 }
@@ -66,7 +77,7 @@ Corner read_corner(std::istringstream& words, const std::string& path, std::size
   for (double& x : out)
     if (!(words >> x))
       refuse(path, line, "expected three numbers, the place of a vertex");
-  return out;
+  return checked(out, path, line);
 }
 
 Corners text_stl(const std::string& bytes, const std::string& path) {
@@ -176,11 +187,16 @@ Surface read_surface(const std::string& path) {
                     "one of .gdf, .pnl and others");
   const std::string bytes = read_bytes(path);
   const Corners corners = !stl                   ? obj(bytes, path)
-                          : is_binary_stl(bytes) ? binary_stl(bytes)
+                          : is_binary_stl(bytes) ? binary_stl(bytes, path)
                                                  : text_stl(bytes, path);
   if (corners.empty())
     throw CaseError({path}, "", "there is no triangle in this file");
-  return join(corners);
+  Surface surface = join(corners);
+  if (surface.triangles.rows() == 0)
+    throw CaseError({path}, "",
+                    "no triangle is left: vertices nearer to each other than 1e-6 of the size of "
+                    "the surface are one; is one of them far away?");
+  return surface;
 }
 
 } // namespace hydrodae::io

@@ -17,7 +17,6 @@ using hdf5::checked;
 using hdf5::Handle;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t rows_per_chunk = 512;
 constexpr Clock::duration longest_wait = std::chrono::milliseconds(500);
 
 } // namespace

@@ -16,6 +16,8 @@ namespace hydrodae::io {
 using Attribute = std::variant<double, std::int64_t, std::string>;
 using Attributes = std::map<std::string, Attribute>;
 
+inline constexpr std::size_t rows_per_chunk = 512; ///< of a dataset, and kept until written
+
 /// Called before every write to the disk: tests look at the file as a killed process leaves it.
 using WriteObserver = std::function<void()>;
 

@@ -11,7 +11,10 @@ namespace hydrodae::joint {
 namespace {
 
 constexpr double sharpest = 60.0 * pi / 180.0; ///< turn of the tangent from point to point [rad]
-constexpr double closest = 0.25;               ///< straight distance over that along the curve
+constexpr double bent = 0.25;                  ///< least chord over arc of two neighbours
+/// Distance of two branches over the spacing of samples, h. A point e off the curve is at most
+/// h/2 + e from a sample of its own branch; 2 h - e is more while e < 3/4 h.
+constexpr double apart = 2.0;
 
 /// Nodes and weights of Gauss and Legendre on [-1, 1].
 constexpr std::array<double, 5> nodes = {-0.9061798459386640, -0.5384693101056831, 0.0,
@@ -63,9 +66,13 @@ std::optional<std::string> Path::flaw(const std::vector<Vector3>& points) {
       return "turns by more than 60 degrees from point " + number(i - 1) + " to point " +
              number(i) + "; give more points there";
   const Path path(points);
+  double spacing = 0.0;
+  for (std::size_t i = 1; i < path.samples_.size(); ++i)
+    spacing = std::max(spacing, path.samples_[i].arc - path.samples_[i - 1].arc);
   for (const Sample& a : path.samples_)
     for (const Sample& b : path.samples_)
-      if (b.arc > a.arc && (b.point - a.point).norm() < closest * (b.arc - a.arc))
+      if (b.arc > a.arc &&
+          (b.point - a.point).norm() < std::min(bent * (b.arc - a.arc), apart * spacing))
         return "comes back near itself: " + number_text(a.arc) + " m and " + number_text(b.arc) +
                " m along it are only " + number_text((b.point - a.point).norm()) +
                " m apart, and a point that slides there could not distinguish them";

@@ -19,11 +19,11 @@ struct Found {
 };
 
 /// @param x  places of A and B (6,) [m]
-Found find(const Catenary& line, const double* x) {
+Found find(const CatenaryLine::Law& law, const double* x) {
   const Vector3 d = Eigen::Map<const Vector3>(x + 3) - Eigen::Map<const Vector3>(x);
   const double X = std::hypot(d[0], d[1]);
   const Eigen::Vector2d e = X > 0.0 ? Eigen::Vector2d(d.head<2>() / X) : Eigen::Vector2d(1, 0);
-  return {hold(line, X, d[2]), e, X, d[2]};
+  return {hold(law.line, X, d[2], law.above(x)), e, X, d[2]};
 }
 
 void put_loads(const Found& at, double* load) {
@@ -31,33 +31,54 @@ void put_loads(const Found& at, double* load) {
       -at.hold.horizontal * at.e, -at.hold.vertical;
 }
 
-Matrix3 slope(const Found& at) {
+/// The line and the surface keep their places where both ends move sideways. What the height of A
+/// does to B, B does to A: the forces have a potential.
+Matrix6 slope(const Found& at) {
   const Eigen::Matrix2d& K = at.hold.stiffness;
-  Matrix3 out;
-  out.topLeftCorner<2, 2>() =
+  const Eigen::Matrix2d across =
       K(0, 0) * at.e * at.e.transpose() +
       at.hold.out_of_plane * (Eigen::Matrix2d::Identity() - at.e * at.e.transpose());
-  out.topRightCorner<2, 1>() = K(0, 1) * at.e;
-  out.bottomLeftCorner<1, 2>() = K(1, 0) * at.e.transpose();
-  out(2, 2) = K(1, 1);
-  return -out;
+  const Eigen::Vector2d by_b = K(0, 1) * at.e, of_b = K(1, 0) * at.e,
+                        by_a = at.hold.by_anchor[0] * at.e;
+  Matrix6 out;
+  out << -across, -by_a, across, by_b,              //
+      -by_a.transpose(), -at.hold.anchor_stiffness, //
+      by_a.transpose(), at.hold.by_anchor[1],       //
+      across, by_a, -across, -by_b,                 //
+      of_b.transpose(), at.hold.by_anchor[1], -of_b.transpose(), -K(1, 1);
+  return out;
 }
 
+/// Weight of sea water: the size of a load at the surface follows from its buoyancy [N/m3].
+constexpr double sea_water = 1025.0 * 9.81;
+
 Catenary described(const CatenaryLine& of) {
+  const auto buoyancy = [](const std::vector<double>& dry, std::size_t i, double wet) {
+    return dry.empty() ? std::max(-wet, 0.0) : dry[i] - wet;
+  };
   Catenary out;
   for (std::size_t i = 0; i < of.length.size(); ++i)
-    out.parts.push_back({of.length[i], of.weight[i], of.stiffness[i]});
-  out.loads = of.loads;
-  out.loads.resize(of.length.size() - 1, 0.0);
+    out.parts.push_back(
+        {of.length[i], of.weight[i], of.stiffness[i], buoyancy(of.dry_weight, i, of.weight[i])});
+  for (std::size_t i = 0; i + 1 < of.length.size(); ++i) {
+    const double weight = of.loads.empty() ? 0.0 : of.loads[i],
+                 lift = buoyancy(of.dry_loads, i, weight);
+    out.loads.push_back({weight, lift, std::cbrt(0.75 * lift / (pi * sea_water))});
+  }
   out.bed = of.seabed;
   out.friction = of.friction;
   return out;
 }
 
-double tension(const CatenaryLine& of, Catenary& line, double first) {
+/// The line between its ends in the reference pose.
+CatenaryHold in_place(const CatenaryLine& of, const Catenary& line) {
   const Vector3 d = of.point_b - of.point_a;
+  return hold(line, std::hypot(d[0], d[1]), d[2], of.point_b[2] - of.surface);
+}
+
+double tension(const CatenaryLine& of, Catenary& line, double first) {
   line.parts[0].length = first;
-  return hold(line, std::hypot(d[0], d[1]), d[2]).tension();
+  return in_place(of, line).tension();
 }
 
 /// Lengths of the first part between which a tension is looked for [m].
@@ -90,7 +111,7 @@ std::optional<Fault> fault_on_seabed(const CatenaryLine& of) {
 
 void CatenaryLine::Law::operator()(const element::In<double>& in,
                                    const element::Out<double>& out) const {
-  put_loads(find(line, in.x), out.load);
+  put_loads(find(*this, in.x), out.load);
 }
 
 void CatenaryLine::Law::operator()(const element::In<Dual>& in,
@@ -98,64 +119,38 @@ void CatenaryLine::Law::operator()(const element::In<Dual>& in,
   std::array<double, 6> x, load;
   for (std::size_t i = 0; i < 6; ++i)
     x[i] = in.x[i].a;
-  const Found at = find(line, x.data());
+  const Found at = find(*this, x.data());
   put_loads(at, load.data());
-  const Matrix3 K = slope(at);
-  for (int i = 0; i < 3; ++i) {
+  const Matrix6 K = slope(at);
+  for (int i = 0; i < 6; ++i) {
     double change = 0.0;
-    for (int k = 0; k < 3; ++k)
-      change += K(i, k) * (in.x[3 + k].b - in.x[k].b);
-    const auto at_a = static_cast<std::size_t>(i);
-    out.load[i] = Dual(load[at_a], -change);
-    out.load[3 + i] = Dual(load[3 + at_a], change);
+    for (int k = 0; k < 6; ++k)
+      change += K(i, k) * in.x[k].b;
+    out.load[i] = Dual(load[static_cast<std::size_t>(i)], change);
   }
 }
 
-Matrix3 CatenaryLine::Law::gradient(const double* x) const { return slope(find(line, x)); }
+Matrix6 CatenaryLine::Law::gradient(const double* x) const { return slope(find(*this, x)); }
 
 double CatenaryLine::Law::energy(const element::In<double>& in) const {
-  const Found at = find(line, in.x);
-  return hydrodae::energy(line, at.hold, at.X, at.Z);
+  const Found at = find(*this, in.x);
+  return hydrodae::energy(line, at.hold, at.X, at.Z, above(in.x));
 }
 
 void CatenaryLine::Law::observe(const element::In<double>& in, const element::Out<const double>&,
                                 double* values) const {
-  const Found at = find(line, in.x);
+  const Found at = find(*this, in.x);
   values[0] = at.hold.tension();
   values[1] = std::hypot(at.hold.anchor_horizontal, at.hold.anchor_vertical);
   values[2] = at.hold.on_bed;
 }
 
 CatenaryLine::Law CatenaryLine::law() const {
-  Law out{described(*this)};
+  Law out{described(*this), surface};
   if (pretension)
     tighten(*this, out.line);
   return out;
 }
-
-namespace {
-
-/// The part that bears most: along each the tension is largest at one of its ends.
-element::Overload heaviest(const Catenary& line, const std::vector<double>& breaking_load,
-                           const double* x) {
-  const CatenaryHold hold = find(line, x).hold;
-  element::Overload out;
-  double V = hold.vertical; // at the upper end of the part
-  const std::size_t low = line.bed ? may_lie(line) : 0;
-  for (std::size_t i = line.parts.size(); i-- > 0;) {
-    const double below = V - line.parts[i].weight * line.parts[i].length;
-    const double lower = i < low ? std::max(below, 0.0) : below; // the bed carries the rest
-    const double T = std::hypot(hold.horizontal, std::max(std::abs(V), std::abs(lower)));
-    const double ratio = T / breaking_load[breaking_load.size() == 1 ? 0 : i];
-    if (ratio > out.ratio)
-      out = {ratio, static_cast<int>(i) + 1};
-    if (i > 0)
-      V = lower - line.loads[i - 1];
-  }
-  return out;
-}
-
-} // namespace
 
 std::shared_ptr<const element::Elements>
 CatenaryLine::list(const std::vector<CatenaryLine>& lines) {
@@ -166,9 +161,11 @@ CatenaryLine::list(const std::vector<CatenaryLine>& lines) {
   for (const CatenaryLine& line : lines) {
     whole.push_back(
         std::make_shared<const element::Laws<CatenaryLine>>(std::vector<CatenaryLine>{line}));
-    bears.emplace_back([hung = line.law().line, line](const double* in, const double*) {
-      return heaviest(hung, line.breaking_load, in);
-    });
+    bears.emplace_back(
+        [law = line.law(), strength = line.breaking_load](const double* in, const double*) {
+          const LinePeak most = peak(law.line, find(law, in).hold, law.above(in), strength);
+          return element::Overload{most.ratio, static_cast<int>(most.part) + 1};
+        });
   }
   return std::make_shared<const Breaking>(whole, bears, lines.front().breaks);
 }
@@ -176,6 +173,10 @@ CatenaryLine::list(const std::vector<CatenaryLine>& lines) {
 std::optional<Fault> CatenaryLine::fault() const {
   const auto numbers = [](const std::string& key) {
     return Fault{key, "a line needs as many numbers in '" + key + "' as parts in 'length'"};
+  };
+  const auto lighter = [](const std::string& key, double dry, double wet, const char* unit) {
+    return Fault{key, number_text(dry) + " " + unit + " out of the water, " + number_text(wet) +
+                          " " + unit + " in it: water lifts, so write at least as much"};
   };
   if (length.empty())
     return Fault{"length", "a line needs at least one part"};
@@ -185,6 +186,16 @@ std::optional<Fault> CatenaryLine::fault() const {
     return numbers("stiffness");
   if (!loads.empty() && loads.size() + 1 != length.size())
     return Fault{"loads", "'loads' hang between the parts: one number less than 'length'"};
+  if (!dry_weight.empty() && dry_weight.size() != length.size())
+    return numbers("dry_weight");
+  if (!dry_loads.empty() && dry_loads.size() + 1 != length.size())
+    return Fault{"dry_loads", "'dry_loads' hang between the parts: one number less than 'length'"};
+  for (std::size_t i = 0; i < dry_weight.size(); ++i)
+    if (dry_weight[i] < weight[i])
+      return lighter("dry_weight", dry_weight[i], weight[i], "N/m");
+  for (std::size_t i = 0; i < dry_loads.size(); ++i)
+    if (const double wet = loads.empty() ? 0.0 : loads[i]; dry_loads[i] < wet)
+      return lighter("dry_loads", dry_loads[i], wet, "N");
   if (breaking_load.size() > 1 && breaking_load.size() != length.size())
     return Fault{"breaking_load",
                  "'breaking_load' takes one number, or as many as parts in 'length'"};
@@ -205,11 +216,15 @@ std::optional<Fault> CatenaryLine::fault() const {
                                      number_text(least) + " N and " + number_text(most) +
                                      " N can be had"};
   }
-  const Vector3 d = point_b - point_a;
-  if (std::isnan(hold(law().line, std::hypot(d[0], d[1]), d[2]).vertical))
-    return Fault{"seabed", "in the reference pose a buoy, a part that floats, or what is above "
-                           "one, is down on the seabed; this type cannot compute that; use type "
-                           "'line', or seabed = false if there is no seabed"};
+  if (std::isnan(in_place(*this, law().line).vertical)) {
+    if (!seabed)
+      return Fault{"weight", "in the reference pose a part that floats lies on the surface; this "
+                             "type cannot compute that; use type 'line'"};
+    return Fault{"seabed", "in the reference pose a buoy or a part that floats is down on the "
+                           "seabed, or a part that floats lies on the surface; this type cannot "
+                           "compute that; use type 'line', or seabed = false if there is no "
+                           "seabed"};
+  }
   return {};
 }
 

@@ -15,7 +15,8 @@ namespace hydrodae::line {
 
 /// Quasi-static elastic mooring line between an anchor (end A) and a fairlead (end B), of parts
 /// with clump weights or buoys between them. It lies on a flat seabed at the height of the anchor
-/// or is free of it, at each instant as if at rest (math/catenary.h). No inertia, no drag.
+/// or is free of it, at each instant as if at rest (math/catenary.h). No inertia, no drag. What is
+/// above z = 0 has its dry weight; unknown, it is that in water, or zero of what floats.
 ///
 ///   force on B = -(H e + V z),   e: horizontal, from A to B
 struct CatenaryLine {
@@ -28,12 +29,13 @@ struct CatenaryLine {
   std::string name;
   std::string body_a = "ground", body_b;
   Vector3 point_a = Vector3::Zero(), point_b = Vector3::Zero();
-  std::vector<double> length, weight, stiffness, loads;
+  std::vector<double> length, weight, stiffness, loads, dry_weight, dry_loads;
   std::optional<double> pretension;
   bool seabed = true;
   double friction = 0.0;
   std::vector<double> breaking_load;
   bool breaks = false;
+  double surface = 0.0; ///< its height [m]; no key
 
   /// What the port joins, by the names of the bodies.
   std::array<std::pair<std::string, Vector3>, 2> ends() const {
@@ -43,17 +45,17 @@ struct CatenaryLine {
   /// The law that the system evaluates.
   struct Law {
     Catenary line;
+    double surface = 0.0;
 
+    double above(const double* x) const { return x[5] - surface; }
     void operator()(const element::In<double>& in, const element::Out<double>& out) const;
     void operator()(const element::In<Dual>& in, const element::Out<Dual>& out) const;
     template <class J> void jacobian(const element::In<double>& in, J& j) const {
-      const Matrix3 K = gradient(in.x);
       j.setZero();
-      j.template block<3, 3>(0, 0) = j.template block<3, 3>(3, 3) = K;
-      j.template block<3, 3>(0, 3) = j.template block<3, 3>(3, 0) = -K;
+      j.template topLeftCorner<6, 6>() = gradient(in.x);
     }
-    /// d (force on B) / d (place of B); that on A is its opposite, but for what the seabed takes.
-    Matrix3 gradient(const double* x) const;
+    /// d (forces on A and B) / d (places of A and B), but for what the seabed takes at A.
+    Matrix6 gradient(const double* x) const;
     double energy(const element::In<double>& in) const;
     void observe(const element::In<double>& in, const element::Out<const double>& out,
                  double* values) const;
@@ -88,6 +90,13 @@ struct CatenaryLine {
         {"stiffness", &C::stiffness, "N", "Axial stiffnesses EA of the parts.", true, more_than(0)},
         {"loads", &C::loads, "N",
          "Weights in water of what hangs between the parts: clumps; negative: buoys."},
+        {"dry_weight", &C::dry_weight, "N/m",
+         "Weights out of the water per unstretched length of the parts. Default: as in water, zero "
+         "where they float.",
+         false, at_least(0)},
+        {"dry_loads", &C::dry_loads, "N",
+         "Weights out of the water of what hangs between the parts, spheres at the surface. "
+         "Default: as in water, zero where they float."},
         {"pretension", &C::pretension, "N",
          "Tension at B in the reference pose; the length of the first part follows from it.", false,
          more_than(0)},

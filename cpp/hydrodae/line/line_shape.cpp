@@ -31,7 +31,7 @@ Catenary like(const LineModel& m, bool turned, bool bed) {
                             net_weight(m, m.nodes[i + 1]) * (i + 1 == n ? 2.0 : 1.0));
     out.parts.push_back({seg.length, w / seg.length, seg.stiffness});
   }
-  out.loads.assign(n - 1, 0.0);
+  out.loads.assign(n - 1, {});
   out.bed = bed;
   return out;
 }

@@ -57,4 +57,18 @@ inline Span hang(double H, double V, double L, double w, double EA) {
   return out;
 }
 
+/// Length that hangs below a point with the vertical force V until it is d lower: on its way down
+/// with V' >= 0, or on its way up with V' <= 0; infinite where it never is.
+///
+///   L = (V - V') / w,   T' + V'^2 / (2 EA) = T + V^2 / (2 EA) - w d
+inline double length_to_height(double H, double V, double w, double EA, double d, bool down) {
+  const double T = std::hypot(H, V), soft = 1.0 + H / EA;
+  const double q = V * V / (T + H) + 0.5 * V * V / EA - w * d;
+  const double t = 2.0 * q / (soft + std::sqrt(soft * soft + 2.0 * q / EA)); // T' - H
+  const double end = (down ? 1.0 : -1.0) * std::sqrt(t * (t + 2.0 * H));
+  const double length =
+      V * end > 0.0 ? d / ((1.0 / (T + H + t) + 0.5 / EA) * (V + end)) : (V - end) / w;
+  return q >= 0.0 && length > 0.0 ? length : std::numeric_limits<double>::infinity();
+}
+
 } // namespace hydrodae

@@ -134,10 +134,9 @@ void check(const Scene& scene) {
   check_sea(scene);
   for (const sea::Gauge& gauge : scene.gauges)
     check_gauge(scene, gauge);
-  if (scene.hydro && scene.database) {
-    check_parts(scene);
+  check_parts(scene);
+  if (scene.hydro && scene.database)
     check_database(scene);
-  }
   for (const PoseTable& table : scene.pose_tables)
     check_pose_table(scene, table);
 }

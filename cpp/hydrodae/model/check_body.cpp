@@ -13,11 +13,15 @@ namespace {
   refuse(Entry{"body", body.name}, key, message);
 }
 
-/// A rigid body turning freely: no principal moment is negative, and I1 + I2 >= I3 (moments of a
-/// mass distribution). Moments of zero are those of points and rods; whether the constraints leave
-/// such a direction to itself is seen at the start.
+Vector3 principal_moments(const Matrix3& tensor) {
+  return Eigen::SelfAdjointEigenSolver<Matrix3>(tensor).eigenvalues();
+}
+
+/// A rigid body turning freely, or one whose moments are all given: no principal moment is
+/// negative, and I1 + I2 >= I3 (moments of a mass distribution). Moments of zero are those of
+/// points and rods; whether the constraints leave such a direction to itself is seen at the start.
 void check_tensor(const Body& body, const Matrix3& tensor) {
-  const Vector3 moments = Eigen::SelfAdjointEigenSolver<Matrix3>(tensor).eigenvalues();
+  const Vector3 moments = principal_moments(tensor);
   const std::string text = "principal moments " + number_text(moments[0]) + ", " +
                            number_text(moments[1]) + ", " + number_text(moments[2]) + " kg m2";
   if (moments[0] < -1e-9 * moments[2])
@@ -42,7 +46,8 @@ void check_inertia(const Body& body, const std::array<bool, 6>& free) {
       refuse(body, "inertia",
              std::string(symbols[i]) + (body.hydro ? " must be > 0" : " must be >= 0") +
                  " kg m2, because the body is free in " + std::string(coordinate_names[3 + i]));
-  if (free[3] && free[4] && free[5])
+  // Moments about locked axes may be left at zero.
+  if ((free[3] && free[4] && free[5]) || principal_moments(tensor)[0] > 0.0)
     check_tensor(body, tensor);
 }
 
@@ -73,7 +78,8 @@ void check_volume(const Scene& scene, const Body& body) {
   if (water(scene).density <= 0.0)
     refuse(body, "volume",
            "buoyancy needs the density of the water: a database, or environment.water_density");
-  if (const double z = body.center_of_buoyancy.value_or(body.center_of_gravity)[2]; z > 0.0)
+  if (const double z = body.center_of_buoyancy.value_or(body.center_of_gravity)[2];
+      z > 0.0 && !body.is_point())
     refuse(body, body.center_of_buoyancy ? "center_of_buoyancy" : "volume",
            "a volume under water has its centre below z = 0, this one at " + number_text(z) + " m");
 }

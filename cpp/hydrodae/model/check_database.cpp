@@ -28,7 +28,33 @@ void check_reference_point(const Body& body, const hydro::DatabaseBody& entry) {
                      entry.name + "=" + point_text(body.center_of_gravity, ","));
 }
 
-void check_wet_body(const hydro::Database& database, const Body& body) {
+/// Refuses a stiffness that no still water has: it feels neither surge, sway nor yaw, and has a
+/// potential. Buoyancy that turns with the body gives roll and pitch moments by yaw.
+void check_still_water(const hydro::Database& database, const Body& body,
+                       const hydro::Hydrostatics& h) {
+  constexpr double noise = 1e-3; // of tables, as in the symmetry of headings (docs/axes.md)
+  const Matrix6& K = h.stiffness;
+  const double weight = database.rho * database.gravity, size = std::cbrt(h.displaced_volume),
+               rise = std::max(std::abs(K(2, 2)), weight * size * size),
+               tilt = std::max({std::abs(K(3, 3)), std::abs(K(4, 4)), rise * size * size});
+  const auto within = [](int c) { return c >= 2 && c < 5; };
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) {
+      if (j == 5 && (i == 3 || i == 4))
+        continue;
+      const double wrong = within(i) && within(j) ? K(i, j) - K(j, i) : K(i, j);
+      if (std::abs(wrong) > noise * std::sqrt((i < 3 ? rise : tilt) * (j < 3 ? rise : tilt)))
+        refuse(body,
+               "axes = \"yaw\" needs the stiffness of still water, symmetric and zero in surge, "
+               "sway and yaw, and the hydrostatic stiffness of " +
+                   in_quotes(*body.hydro) + " in " + database.path + " has " +
+                   number_text(K(i, j)) + " in row " + std::string(coordinate_names[i]) +
+                   ", column " + std::string(coordinate_names[j]) +
+                   "; give the stiffness of a mooring as a force mooring_matrix");
+    }
+}
+
+void check_wet_body(const hydro::Database& database, const Body& body, const std::string& axes) {
   const hydro::DatabaseBody* entry = hydro::find_body(database, *body.hydro);
   if (!entry) {
     std::vector<std::string> names;
@@ -41,6 +67,8 @@ void check_wet_body(const hydro::Database& database, const Body& body) {
   if (moves(body) && !body.hydrostatics_by_mesh() && !entry->hydrostatics)
     refuse(body, database.path + " holds no hydrostatics of " + in_quotes(*body.hydro) +
                      ", and a body that moves needs them");
+  if (axes == "yaw" && !body.hydrostatics_by_mesh() && entry->hydrostatics)
+    check_still_water(database, body, *entry->hydrostatics);
 }
 
 /// What part of int |K| of a coordinate on itself lies beyond `length` [-].
@@ -126,7 +154,7 @@ void check_database(const Scene& scene) {
   for (const Body& body : scene.bodies) {
     if (!body.hydro || body.part)
       continue;
-    check_wet_body(database, body);
+    check_wet_body(database, body, scene.hydro->axes);
     if (std::find(used.begin(), used.end(), *body.hydro) != used.end())
       refuse(body, "hydro = " + in_quotes(*body.hydro) + " already belongs to another body");
     used.push_back(*body.hydro);

@@ -20,7 +20,8 @@ bool check_motion(const Scene& scene, const Entry& entry, const std::string& nam
 }
 
 /// The ends of a line may both be on the ground, or on one body.
-void check_line(const Scene& scene, const Entry& entry, const line::Line& line) {
+/// Both ends of a line may be on the ground or on one body: its weight and its tension count.
+template <class Line> void check_line(const Scene& scene, const Entry& entry, const Line& line) {
   std::vector<std::string> names = names_of_bodies(scene);
   names.emplace_back(ground);
   check_reference(entry, "body_a", line.body_a, names, "body");
@@ -40,13 +41,13 @@ template <class Force> void check_force(const Scene& scene, const Force& force) 
   if constexpr (requires { force.fault(); })
     if (const std::optional<Fault> fault = force.fault())
       refuse(entry, fault->key, fault->message);
-  if constexpr (std::is_same_v<Force, line::Line>) {
+  if constexpr (std::is_same_v<Force, line::Line> || std::is_same_v<Force, line::CatenaryLine>) {
     check_line(scene, entry, force);
   } else if constexpr (requires { force.body_a; }) {
     check_ends(scene, entry, force.body_a, force.body_b);
     if constexpr (requires { force.point_a; })
       if (coincide(force.point_a, force.point_b)) {
-        bool rests = std::is_same_v<Force, line::CatenaryLine>; // it hangs there
+        bool rests = false;
         if constexpr (requires { force.rests_at_zero(); })
           rests = force.rests_at_zero();
         if (!rests)

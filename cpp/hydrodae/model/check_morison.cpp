@@ -59,6 +59,7 @@ void check_morison(const Scene& scene) {
                      "the hydrodynamic database gives density and depth of the water");
   const bool felt = !scene.morison.empty() ||
                     !std::get<std::vector<line::Line>>(scene.forces).empty() ||
+                    !std::get<std::vector<line::CatenaryLine>>(scene.forces).empty() ||
                     std::any_of(scene.bodies.begin(), scene.bodies.end(),
                                 [](const Body& body) { return body.volume > 0.0 || body.mesh; });
   if (!scene.hydro && !felt && (e.water_density || e.water_depth))

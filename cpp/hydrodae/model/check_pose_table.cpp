@@ -77,26 +77,22 @@ const PoseTable* pose_table(const Scene& scene, const std::string& body) {
   return nullptr;
 }
 
-std::string fingerprint_of_databases(const Scene& scene) {
-  std::string out = scene.database ? scene.database->sha256 : "";
-  for (const PoseTable& table : scene.pose_tables)
-    for (const auto& database : table.loaded)
-      out += " " + database->sha256;
+Scene scene_at_rest(const Scene& scene, const PoseTable& table) {
+  Scene out = scene;
+  out.pose_tables.clear();
+  for (Body& body : out.bodies)
+    if (body.name != table.body)
+      body.hydro.reset();
   return out;
 }
 
 Scene scene_at_pose(const Scene& scene, const PoseTable& table, std::size_t k) {
-  Scene out = scene;
-  out.pose_tables.clear();
+  Scene out = scene_at_rest(scene, table);
   out.database = table.loaded[k];
-  for (Body& body : out.bodies) {
-    if (body.name != table.body) {
-      body.hydro.reset();
-      continue;
-    }
-    if (!table.turns())
-      body.center_of_gravity[table.component()] += table.poses()[k];
-  }
+  if (!table.turns())
+    for (Body& body : out.bodies)
+      if (body.name == table.body)
+        body.center_of_gravity[table.component()] += table.poses()[k];
   return out;
 }
 
@@ -119,6 +115,9 @@ void check_pose_table(const Scene& scene, const PoseTable& table) {
     refuse(table, "databases",
            "radiation = \"convolution\" has no tables over poses; use \"exponential\", "
            "\"constant\" or \"none\"");
+  if (table.blends_memory() && scene.hydro->radiation != "exponential")
+    refuse(table, "memory",
+           "memory = \"blended\" needs radiation = \"exponential\" in [hydro]; leave it out");
   if (!scene.database || table.loaded.empty())
     return;
   check_alone(scene, table, *body);

@@ -124,6 +124,11 @@ void check_solver(const Scene& scene) {
   if (o.max_order != 5 && !(method && method->limits_order))
     refuse_solver("max_order", "belongs to ida; " +
                                    (method ? o.method + " takes solver.order" : "name the method"));
+  // The default asks for nothing.
+  if (o.spectral_radius != SolverOptions{}.spectral_radius && !(method && method->takes_radius))
+    refuse_solver("spectral_radius",
+                  "belongs to generalized_alpha; " +
+                      (method ? "leave it out with " + o.method : "name the method"));
 }
 
 } // namespace hydrodae::model

@@ -57,6 +57,31 @@ void check_shape(const Scene& scene, const Attachment& place, const std::string&
                (modes == 1 ? " mode" : " modes") + ": expected one vector for each mode");
 }
 
+/// Does a joint hold a body or one of its attachments? A constraint may.
+bool is_held(const Scene& scene, const Body& body) {
+  const auto joins = [&](const std::string& name) {
+    return std::any_of(scene.joints.begin(), scene.joints.end(),
+                       [&](const Joint& j) { return j.body_a == name || j.body_b == name; });
+  };
+  return !scene.constraints.empty() || joins(body.name) ||
+         std::any_of(scene.attachments.begin(), scene.attachments.end(),
+                     [&](const Attachment& a) { return a.body == body.name && joins(a.name); });
+}
+
+/// Mass that couples a shape with a motion is not in the equations.
+void check_participation(const Scene& scene) {
+  for (const Mode& mode : scene.modes)
+    for (std::size_t c = 0; c < 3; ++c)
+      if (mode.participation && (*mode.participation)[static_cast<Index>(c)] != 0.0 &&
+          !may_participate(scene, *find_named(scene.bodies, mode.body), c))
+        refuse(Entry{"mode", mode.name}, "participation",
+               "body " + in_quotes(mode.body) + " moves freely in " +
+                   std::string(coordinate_names[c]) +
+                   ", and a normal mode takes no part in such a motion: give zero there with the "
+                   "shape of the free body, or hold the body as the program did that gave the "
+                   "shape");
+}
+
 } // namespace
 
 std::vector<std::size_t> modes_of(const Scene& scene, std::string_view body) {
@@ -91,8 +116,13 @@ void add_parts(Scene& scene) {
     scene.bodies.push_back(make_attachment(scene, k));
 }
 
+bool may_participate(const Scene& scene, const Body& body, std::size_t c) {
+  return !moving_axes(body)[c] || is_held(scene, body);
+}
+
 void check_parts(const Scene& scene) {
-  if (scene.modes.empty() || !scene.hydro)
+  check_participation(scene);
+  if (!scene.hydro || !scene.database)
     return;
   for (const Mode& mode : scene.modes) {
     const Entry entry{"mode", mode.name};

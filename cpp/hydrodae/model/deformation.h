@@ -21,7 +21,12 @@ std::vector<std::size_t> modes_of(const Scene& scene, std::string_view body);
 /// The amplitude of a mode in the scene with its parts.
 const Body& part_of_mode(const Scene& scene, std::size_t mode);
 
-/// What the parts need: hydrodynamic axes that do not turn, and a database that knows the modes.
+/// Can modes of a body take part in its motion along axis c of the body (0, 1, 2)? Normal modes of
+/// a body that moves freely there have no share of its momentum.
+bool may_participate(const Scene& scene, const Body& body, std::size_t c);
+
+/// What the parts need: participation of held bodies alone, hydrodynamic axes that do not turn, and
+/// a database that knows the modes.
 /// Throws ModelError.
 void check_parts(const Scene& scene);
 

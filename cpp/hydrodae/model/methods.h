@@ -17,6 +17,7 @@ struct MethodTraits {
   bool drifting = false;          ///< does it take formulations that let the constraints drift?
   std::string_view fails_index_3; ///< why it fails on index 3; empty: it does not
   bool limits_order = false;      ///< does solver.max_order limit it?
+  bool takes_radius = false;      ///< does solver.spectral_radius act on it?
   bool reduces = false;           ///< does it take coordinates = "reduced"?
   /// Is the polynomial inside its adaptive steps of a lower order than their ends? Then steps are
   /// repeated up to an event instead of being cut there.
@@ -25,6 +26,7 @@ struct MethodTraits {
   bool many_steps = false;
   bool passes_singular_poses = false; ///< of closed loops, by measurement (tests/stability)
   bool projects_rates = false;        ///< do its steps meet the rows of the rates exactly?
+  bool loose_reactions = false;       ///< does no error test hold the multipliers of its steps?
   bool bounded_stability = false;     ///< do stiff rates limit its steps?
 };
 

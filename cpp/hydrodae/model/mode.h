@@ -27,7 +27,8 @@ struct ModeInitial {
 /// the body. Shapes are normal modes of the dry body: neither another mode nor a rigid motion
 /// shares their kinetic energy (Newman, Applied Ocean Research 16 (1994) 47-59).
 ///
-///   m q'' + c q' + k q = loads of the water and of what is attached, on the shape
+///   m q'' + c q' + k q = loads of the water and of what is attached, on the shape, and the weight
+///                        -g e_z.R w on it, w = integral of the shape over the mass
 struct Mode {
   static constexpr std::string_view doc = "A shape in which a body deforms: a normal mode of the "
                                           "dry body, whose amplitude is a further "
@@ -37,6 +38,7 @@ struct Mode {
   double mass = 0.0;
   double stiffness = 0.0;
   double damping = 0.0;
+  std::optional<Vector3> participation;
   std::optional<std::string> hydro;
   ModeInitial initial;
   const std::string& label() const { return hydro ? *hydro : name; } ///< in the database
@@ -51,6 +53,10 @@ struct Mode {
          "Modal stiffness of the structure. That of the water comes from the database.", false,
          at_least(0)},
         {"damping", &M::damping, "N s/m", "Modal damping of the structure.", false, at_least(0)},
+        {"participation", &M::participation, "kg",
+         "Participation factors of finite-element programs: the shape, summed over the mass of the "
+         "body, along its axes. By these the weight loads the mode. Default: zero, as of normal "
+         "modes of a free body."},
         {"hydro", &M::hydro, "-",
          "Name of this mode in the hydrodynamic database, without the body; default: the name."},
     };

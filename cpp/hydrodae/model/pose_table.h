@@ -21,8 +21,10 @@ struct PoseTable {
   static constexpr std::size_t most = 100; ///< poses
   std::vector<double> values, values_deg;  ///< one of the two is empty; the second is in radians
   std::vector<std::string> databases;
+  std::string memory = "rest";
   std::vector<std::shared_ptr<const hydro::Database>> loaded; ///< of `databases`
 
+  bool blends_memory() const { return memory == "blended"; }
   bool turns() const { return coordinate != "heave"; }
   int component() const; ///< 0..5
   const std::vector<double>& poses() const { return turns() ? values_deg : values; }
@@ -47,6 +49,15 @@ struct PoseTable {
          "Paths of the databases, one for each value, relative to the case file. Each is about the "
          "centre of gravity where it then is.",
          true},
+        {"memory",
+         &T::memory,
+         "-",
+         "Radiation memory of radiation = \"exponential\": that of the database in [hydro], "
+         "passive "
+         "at any pose (rest), or those of all poses, each multiplied by its weight (blended).",
+         false,
+         any_value,
+         {"rest", "blended"}},
     };
   }
 };
@@ -55,11 +66,12 @@ struct PoseTable {
 /// body in the water, moved to the pose.
 Scene scene_at_pose(const Scene& scene, const PoseTable& table, std::size_t k);
 
+/// The scene of the memory of rest: the database of the scene, and only the body of `table` in the
+/// water.
+Scene scene_at_rest(const Scene& scene, const PoseTable& table);
+
 /// The scene of the radiation of all other bodies.
 Scene scene_without_tables(const Scene& scene);
-
-/// Fingerprints of all databases of a scene; empty without any.
-std::string fingerprint_of_databases(const Scene& scene);
 
 /// The table of a body, or null.
 const PoseTable* pose_table(const Scene& scene, const std::string& body);

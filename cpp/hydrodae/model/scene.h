@@ -34,6 +34,7 @@
 #include "hydrodae/line/rope.h"
 #include "hydrodae/model/constraint.h"
 #include "hydrodae/model/controller.h"
+#include "hydrodae/model/input_file.h"
 #include "hydrodae/model/mode.h"
 #include "hydrodae/model/pose_table.h"
 #include "hydrodae/model/solver_options.h"
@@ -152,6 +153,7 @@ struct Body {
   Vector3 mesh_origin = Vector3::Zero();
   std::string hydrostatics = "linear", froude_krylov = "linear";
   bool hydrostatics_by_mesh() const { return hydrostatics == "mesh"; }
+  bool is_point() const { return motion == std::vector<std::string>{"point"}; }
   bool waves_by_mesh() const { return froude_krylov == "mesh"; }
   std::shared_ptr<const hull::Mesh> hull; ///< read from `mesh`, about the centre of gravity
   BodyInitial initial;
@@ -197,7 +199,7 @@ struct Body {
          "Name of this body in the hydrodynamic database; without it the body is dry."},
         {"volume", &B::volume, "m3",
          "Volume of a body without `hydro` that is and stays under water: it has the buoyancy "
-         "rho g V.",
+         "rho g V. That of a point (motion) is a sphere, whose buoyancy ends at z = 0.",
          false, more_than(0)},
         {"center_of_buoyancy", &B::center_of_buoyancy, "m",
          "Centre of that volume in the reference pose, world axes; default: the centre of "
@@ -332,6 +334,7 @@ struct Scene {
   Scene& operator=(Scene&&) noexcept;
 
   std::string title;
+  std::vector<std::string> missing; ///< parts of the modelled device that the case lacks, as text
   Environment environment;
   std::optional<HydroOptions> hydro;
   std::vector<Body> bodies;
@@ -351,6 +354,7 @@ struct Scene {
 
   std::string text; ///< the case file as read, with the overrides that were applied noted below
   std::string path; ///< "" when it was parsed from a string
+  std::vector<InputFile> files;            ///< all that it reads, in the order of reading
   std::vector<std::string> overrides;      ///< "key = value" as given on the command line
   std::map<std::string, FilePlace> places; ///< of all keys that are given, by their path
   std::vector<Controller> controllers;

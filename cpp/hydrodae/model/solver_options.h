@@ -68,7 +68,7 @@ struct SolverOptions {
         {"end_time", &O::end_time, "s", "End of the run.", true, more_than(0, longest_time)},
         {"rtol", &O::rtol, "-",
          "Local error tolerance relative to the scales of the scene (see length_scale, "
-         "time_scale).",
+         "time_scale); with a fixed step it bounds Newton iterations and events only.",
          false, Range{1e-13, 1e-1, false}},
         {"step", &O::step, "s",
          "Fixed step; 0: the method chooses. Needed by gauss, lobatto_iiic and generalized_alpha.",

@@ -13,13 +13,14 @@ namespace hydrodae::run {
 
 namespace {
 
-constexpr const char *of_state = "state", *of_output = "output";
+constexpr const char *of_state = "state", *of_output = "output", *of_second = "second";
 
 /// SHA-256 of all numbers: damage is reported before a run goes on from it.
 std::string digest_of_numbers(const Checkpoint& checkpoint) {
   State output;
   output.memory = checkpoint.output;
-  return io::sha256_of_text(checkpoint.state.bytes() + output.bytes());
+  return io::sha256_of_text(checkpoint.state.bytes() + output.bytes() +
+                            (checkpoint.second ? checkpoint.second->bytes() : ""));
 }
 
 io::Texts identity(const model::Scene& scene) {
@@ -27,7 +28,7 @@ io::Texts identity(const model::Scene& scene) {
           {"version", HYDRODAE_VERSION},
           {"case_text", scene.text},
           {"case_overrides", joined(scene.overrides, "\n")},
-          {"hydro_sha256", model::fingerprint_of_databases(scene)}};
+          {"input_files", model::text_of_files(scene.files)}};
 }
 
 bool is_checkpoint(const std::string& path) {
@@ -45,16 +46,17 @@ void check_identity(const std::string& path, const io::Texts& found, const model
       {"version", "was made by another version of hydrodae"},
       {"case_text", "is of another case: its text has changed since"},
       {"case_overrides", "is of a run with other overrides (--set, --method)"},
-      {"hydro_sha256", "is of a run with another hydrodynamic database"}};
+      {"input_files", "is of a run with other inputs"}};
   for (const std::string name :
-       {"format", "version", "case_overrides", "case_text", "hydro_sha256"}) {
+       {"format", "version", "case_overrides", "case_text", "input_files"}) {
     const auto entry = found.find(name);
     const std::string expected = identity(scene).at(name);
     if (entry == found.end() || entry->second != expected)
       throw CaseError(path + ": cannot be resumed: it " + words.at(name) +
-                      (name == "version" && entry != found.end()
-                           ? " (" + entry->second + ", this is " + expected + ")"
-                           : ""));
+                      (entry == found.end() ? ""
+                       : name == "version"  ? " (" + entry->second + ", this is " + expected + ")"
+                       : name == "input_files" ? ": " + model::changed_file(entry->second, expected)
+                                               : ""));
   }
 }
 
@@ -72,6 +74,10 @@ void write_checkpoint(const std::string& results, const model::Scene& scene,
   file.texts["sha256"] = digest_of_numbers(checkpoint);
   file.groups[of_state] = checkpoint.state.numbers();
   file.groups[of_output] = checkpoint.output;
+  if (checkpoint.second)
+    file.groups[of_second] = checkpoint.second->numbers();
+  file.texts["verify"] = checkpoint.verify;
+  file.texts["stopped"] = checkpoint.stopped;
   try {
     io::write_memory(checkpoint_name(results), file);
   } catch (const CaseError& error) {
@@ -88,7 +94,10 @@ Checkpoint read_checkpoint(const std::string& results, const model::Scene& scene
   check_identity(path, file.texts, scene);
   try {
     Checkpoint out{State::from_numbers(std::move(file.groups[of_state]), file.texts["scene"]),
-                   std::move(file.groups[of_output])};
+                   std::move(file.groups[of_output]), std::nullopt, file.texts["verify"],
+                   file.texts["stopped"]};
+    if (file.groups.contains(of_second))
+      out.second = State::from_numbers(std::move(file.groups[of_second]), out.state.scene);
     if (digest_of_numbers(out) == file.texts["sha256"])
       return out;
   } catch (const Error&) { // parts of it are missing

@@ -1,6 +1,7 @@
 #pragma once
 /// What a run leaves beside its results file, so that another process can go on from there.
 
+#include <optional>
 #include <string>
 
 #include "hydrodae/model/scene.h"
@@ -10,7 +11,10 @@ namespace hydrodae::run {
 
 struct Checkpoint {
   State state;
-  Memory output; ///< what the writer of the results needs besides
+  Memory output;               ///< what the writer of the results needs besides
+  std::optional<State> second; ///< of the run that the error is estimated by, while it goes on
+  std::string verify;          ///< its method, as it was asked for
+  std::string stopped;         ///< why it did not reach its end
 };
 
 /// "X.checkpoint.h5" for "X.h5".

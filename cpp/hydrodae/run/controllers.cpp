@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <tuple>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
@@ -68,7 +69,31 @@ bool reached(double instant, double t) {
   return instant <= t * (1.0 + rounding);
 }
 
+template <class List> bool calls_functions(const List& forces) {
+  return std::any_of(forces.begin(), forces.end(), [](const auto& force) {
+    if constexpr (requires { force.function; })
+      return static_cast<bool>(force.function);
+    else
+      return false;
+  });
+}
+
 } // namespace
+
+bool asks_outside(const model::Scene& scene) {
+  return std::apply([](const auto&... list) { return (calls_functions(list) || ...); },
+                    scene.forces) ||
+         std::any_of(scene.constraints.begin(), scene.constraints.end(),
+                     [](const model::Constraint& c) {
+                       const auto* driven = c.as<model::DrivenCoordinate>();
+                       return driven && driven->drive.function;
+                     }) ||
+         std::any_of(scene.controllers.begin(), scene.controllers.end(),
+                     [](const model::Controller& c) {
+                       const auto* outside = c.as<control::Outside>();
+                       return outside && outside->make;
+                     });
+}
 
 std::size_t find_column(const std::vector<Channel>& channels, const std::string& name) {
   std::size_t column = 0;

@@ -22,6 +22,10 @@ namespace hydrodae::run {
 /// nearest name, for an unknown one.
 std::size_t find_column(const std::vector<Channel>& channels, const std::string& name);
 
+/// Does a run call functions of the program that runs it, or other programs? Then the second run,
+/// which estimates the error, waits for the end of the first.
+bool asks_outside(const model::Scene& scene);
+
 /// What each controller holds: columns of the results, which other controllers may read.
 std::vector<Channel> held_channels(const model::Scene& scene, const std::vector<Input>& inputs);
 
@@ -88,6 +92,9 @@ public:
   void finish(const std::string& error);
   void remember(Archive& a);
 
+  /// The next sampling instant of any controller; infinite: none [s].
+  double next_time() const;
+
 private:
   struct One {
     std::string name;
@@ -110,8 +117,6 @@ private:
     bool write(double t);
     void remember(Archive& a);
   };
-
-  double next_time() const;
 
   std::vector<One> all_;
 };

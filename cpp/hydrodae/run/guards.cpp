@@ -9,6 +9,7 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/linalg/saddle_point.h"
 #include "hydrodae/run/turn_check.h"
+#include "hydrodae/system/dropped_rows.h"
 
 namespace hydrodae::run {
 
@@ -67,6 +68,40 @@ private:
   const system::Regime& s_;
   std::unique_ptr<accuracy::DriftGuard> guard_;
   PoseWatch& watch_;
+};
+
+/// Constraint rows that the assembly left out: their gaps prove whether they follow from others.
+class DroppedRowsCheck : public Guard {
+public:
+  DroppedRowsCheck(const system::Regime& s, const model::SolverOptions& options)
+      : rows_(s), allowed_(10.0 * options.tolerance_assembly +
+                           (s.formulation == system::Formulation::stabilised ? 100.0 * options.rtol
+                                                                             : drifted)) {}
+  bool empty() const { return rows_.empty(); }
+  void check(const Step& step) override {
+    const system::DroppedRows::Gap worst = rows_.largest(step.end, step.y);
+    if (worst.part <= allowed_)
+      return;
+    throw SolverError(
+        step.end,
+        {Reason::drift,
+         worst.name +
+             " was left out at the start, as it followed from the other constraints there, "
+             "and is " +
+             number_text(worst.gap) + " " + worst.unit + " open: the mechanism cannot move so",
+         worst.name,
+         {{"gap", worst.gap}},
+         "move a point or an axis out of line, or make one of the joints a spring_damper",
+         ""});
+  }
+
+private:
+  /// Part of a body's arm up to which formulations that let constraints drift may open a row.
+  static constexpr double drifted = 1e-2;
+  system::DroppedRows rows_;
+  /// Joints fit each other within tolerance_assembly, and the rows that hold are met within rtol of
+  /// their scale: a row that follows from them may be open by a multiple of both.
+  double allowed_;
 };
 
 /// Positions so large that their rounding hides what the tolerance asks for: steps shrink there
@@ -206,6 +241,8 @@ std::vector<std::unique_ptr<Guard>> make_guards(const system::Regime& system,
   guards.push_back(std::make_unique<EnergyCheck>(system, std::move(energy), *watch));
   if (options.step <= 0.0 && system.lambda0 > 0)
     guards.push_back(std::make_unique<RoundingCheck>(system, options.rtol));
+  if (auto dropped = std::make_unique<DroppedRowsCheck>(system, options); !dropped->empty())
+    guards.push_back(std::move(dropped));
   if (options.branch_guard)
     if (accuracy::BranchGuard branch(system); branch.active())
       guards.push_back(std::make_unique<BranchCheck>(std::move(branch)));

@@ -240,6 +240,8 @@ bool Simulation::make_step(double end) {
       t_ = integrator_->step(std::min(end, known), bound_);
     } catch (const SolverError& error) {
       at_(t_, y_, yp_);
+      if (begins_to_move())
+        continue;
       const SolverError stopped(error.time, poses_->with_remedy(error.halt, t_, y_, yp_));
       if (!methods_.chosen())
         throw stopped;

@@ -41,8 +41,9 @@ namespace hydrodae::run {
 class Simulation {
 public:
   /// At the start of the run. Throws ModelError or SolverError when the scene cannot start.
-  /// @param looser tolerance over that of the run which this one is to judge: steps that waves
-  ///   bound are as much longer as those that the tolerance bounds
+  /// @param looser tolerance over that of the run which this one is to judge: steps that something
+  ///   else bounds change as those that the tolerance bounds; below 1 whatever it is, above 1 where
+  ///   waves do
   explicit Simulation(model::Scene scene, double looser = 1.0);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -73,7 +74,7 @@ public:
   /// Goes to a state of the same scene, back or ahead. Throws CaseError for that of another.
   void restore(const State& state);
 
-  /// Which scene this is: equal texts, overrides, databases and versions have equal fingerprints.
+  /// Which scene this is: digest of text, overrides and version, then `model::text_of_files`.
   const std::string& fingerprint();
 
   /// Every column that `sample` fills, in its order.
@@ -136,8 +137,10 @@ private:
   bool make_step(double end);
   std::optional<double> locate();
   double find_bound();
+  double stretch_of_steps();
   bool inside_of_step(double t) const;
   void approach(double event);
+  bool begins_to_move();
   void choose_quadrature();
   void choose_method();
   void use_method();
@@ -167,6 +170,7 @@ private:
   void fill_counts(std::span<double> row) const;
   void remember(Archive& a);
   void set(const State& state);
+  void require_same(const std::string& scene); ///< throws CaseError naming what differs
 
   model::Scene scene_;
   const double looser_;
@@ -209,6 +213,8 @@ private:
   double bound_ = INFINITY;      ///< beyond which the last step was not to go [s]
   VectorX y_start_, yp_start_;   ///< at the start of the step
   int quadrature_nodes_ = 3;
+  int highest_order_ = 1;      ///< of the steps so far
+  double control_since_ = 0.0; ///< when controllers acted last [s]
   events::Interpolant at_ = [this](double t, VectorX& y, VectorX& yp) {
     integrator_->interpolate(t, y, yp);
   };

@@ -106,7 +106,7 @@ std::optional<double> Simulation::locate() {
 
 /// No step may pass over what is known ahead of time, nor over an event that was found.
 double Simulation::find_bound() {
-  const double stretch = std::pow(looser_, 1.0 / (integrator_->statistics().last_order + 1.0));
+  const double stretch = stretch_of_steps();
   const system::Forcing::Limit limit =
       forcing_->limit(measure_->turns(), integrator_->gap(), stretch);
   if (event_near_ - t_ <= step_edge * (t_ - last_start_)) // no sliver of a step
@@ -121,8 +121,28 @@ double Simulation::find_bound() {
                            {{"step", step}},
                            rounded_text(limit.time - t_) + " s may do",
                            ""});
-  const double carried = history_ ? t_ + history_->longest_step() : INFINITY;
-  return std::min({limit.time, event_near_, carried});
+  double other = INFINITY; // bounds that no longer step may pass
+  if (history_)
+    other = t_ + history_->longest_step();
+  if (stretch < 1.0) {
+    if (options_.max_step > 0.0)
+      other = std::min(other, t_ + options_.max_step);
+    other = t_ + stretch * (other - t_);
+    if (controllers_) { // the step through the whole interval between two instants is split
+      const double next = controllers_->next_time(), part = stretch * (next - control_since_);
+      if (std::isfinite(part) && next - t_ > part)
+        other = std::min(other, t_ + part);
+    }
+  }
+  return std::min({limit.time, event_near_, other});
+}
+
+/// Length of the steps over that of the run which this one is to judge, where something but the
+/// tolerance bounds them: as the error control would choose it, by the highest order so far (that
+/// of ida begins low).
+double Simulation::stretch_of_steps() {
+  highest_order_ = std::max(highest_order_, integrator_->statistics().last_order);
+  return looser_ == 1.0 ? 1.0 : std::pow(looser_, 1.0 / (highest_order_ + 1.0));
 }
 
 /// Is a time in the middle of the last step, where the polynomial is of a lower order than the end,
@@ -142,6 +162,25 @@ void Simulation::approach(double event) {
   y_ = y_start_;
   yp_ = yp_start_;
   restart_integrator();
+}
+
+/// A step has failed. Does a load that sets in here ask for tolerances of a larger motion than
+/// there was so far? Then the method goes on from the last accepted instant with these.
+bool Simulation::begins_to_move() {
+  double time = std::abs(t_);
+  for (const system::BodyData& b : system_.bodies)
+    time = std::max(time, b.time_scale);
+  const double later = t_ + 1e-9 * time; // beyond the shortest step that a method tries
+  VectorX y = y_, yp = yp_;
+  try {
+    consistency().restore(later, y, yp);
+  } catch (const SolverError&) {
+    return false;
+  }
+  if (!scale_->begin_again(pattern_, later, y, yp))
+    return false;
+  renew_integrator(); // with a first step of its own: that of the failed one has no length left
+  return true;
 }
 
 /// Steps that end where something made them end do not count as evidence on the method.

@@ -8,22 +8,27 @@
 namespace hydrodae::run {
 
 const std::string& Simulation::fingerprint() {
-  if (fingerprint_.empty()) {
-    std::string text = std::string(HYDRODAE_VERSION) + '\n' + scene_.text + '\n' +
-                       joined(scene_.overrides, "\n") + '\n' +
-                       model::fingerprint_of_databases(scene_);
-    for (const model::Controller& c : scene_.controllers)
-      if (const auto* fmu = c.as<control::Fmu>())
-        text += fmu->sha256;
-    fingerprint_ = io::sha256_of_text(text);
-  }
+  if (fingerprint_.empty())
+    fingerprint_ = io::sha256_of_text(std::string(HYDRODAE_VERSION) + '\n' + scene_.text + '\n' +
+                                      joined(scene_.overrides, "\n")) +
+                   '\n' + model::text_of_files(scene_.files);
   return fingerprint_;
+}
+
+void Simulation::require_same(const std::string& scene) {
+  const std::size_t files = fingerprint().find('\n') + 1;
+  if (scene.compare(0, files, fingerprint(), 0, files) != 0)
+    throw CaseError("the state is of another case or version of hydrodae than this run");
+  if (const std::string changed =
+          model::changed_file(scene.substr(files), fingerprint().substr(files));
+      !changed.empty())
+    throw CaseError("the state is of a run with other inputs than this one: " + changed);
 }
 
 void Simulation::remember(Archive& a) {
   std::vector<system::Regime::Mode> modes = regime_.modes;
   a(step_start_, last_start_, event_near_, quadrature_nodes_, before_start_, modes, methods_,
-    event_here_);
+    event_here_, highest_order_, control_since_);
   for (const Input& input : inputs_)
     a(*input.value);
   for (const Input& input : inputs_)
@@ -72,8 +77,7 @@ void Simulation::restore(const State& state) {
 
 void Simulation::set(const State& state) {
   using hydrodae::restore;
-  if (state.scene != fingerprint())
-    throw CaseError("the state is of another case, database or version of hydrodae than this run");
+  require_same(state.scene);
   const Memory& memory = state.memory;
   written_ = false;
   failed_ = true; // until all is restored

@@ -10,10 +10,12 @@ namespace hydrodae::run {
 void Simulation::sample(double t, std::span<double> row) {
   const auto closed = [this](double at, VectorX& y, VectorX& yp) {
     at_(at, y, yp);
-    if (closing_ && at_rest())
-      closing_->hold(at, y, yp);
-    else if (closing_)
+    if (!closing_)
+      return;
+    if (!at_rest())
       closing_->close(at, y);
+    if (at_rest() || model::method_traits(options_.method).loose_reactions)
+      closing_->hold(at, y, yp);
   };
   recorder_->sample(t, closed, row.first(recorder_->width()));
   fill_counts(row);
@@ -83,6 +85,7 @@ void Simulation::take_control() {
     return;
   take_inputs();
   failed_ = true; // until all have answered
+  control_since_ = t_;
   if (controllers_->act(t_, event_here_, row_now()))
     written_ = true;
   constexpr double far = 100.0; // levers or rad: no device is meant to go there

@@ -33,8 +33,9 @@ double gyration(const system::BodyData& b) {
   return b.mass > 0.0 ? std::sqrt(largest / b.mass) : 0.0;
 }
 
-/// Size of a body: side of the cube of its displaced volume, or radius of gyration, where larger;
-/// for dry bodies at least the extent of the scene. 0: not known [m].
+/// Size of a body: side of the cube of the volume that it displaces or that its mesh encloses, or
+/// radius of gyration, where larger; for dry bodies at least the extent of the scene. 0: not known
+/// [m].
 double size_of(const model::Scene& scene, const system::System& s, std::size_t i) {
   const system::BodyData& b = s.bodies[i];
   const double size = gyration(b);
@@ -43,6 +44,8 @@ double size_of(const model::Scene& scene, const system::System& s, std::size_t i
     if (wet && wet->hydrostatics)
       return std::max(size, std::cbrt(wet->hydrostatics->displaced_volume));
   }
+  if (scene.bodies[i].hull)
+    return std::max(size, std::cbrt(scene.bodies[i].hull->volume));
   double extent = 0.0;
   for (const system::BodyData& other : s.bodies)
     extent = std::max(extent, (other.reference - b.reference).norm());
@@ -252,18 +255,25 @@ void judge_stretch(const model::Scene& scene, std::vector<Finding>& out) {
       judge_line(line);
 }
 
-/// How far a line that feels no seabed hangs below its end A in the reference pose [m].
-double sag(const line::CatenaryLine& of) {
+/// A line in the reference pose: how far it hangs below its end A, and the part of its unstretched
+/// length that is out of the water.
+struct Shape {
+  double sag = 0.0, dry = 0.0; ///< [m], [-]
+};
+Shape shape(const line::CatenaryLine& of) {
   const Catenary line = of.law().line;
   const Vector3 d = of.point_b - of.point_a;
-  const double X = std::hypot(d[0], d[1]), all = line.length();
+  const double X = std::hypot(d[0], d[1]), all = line.length(), above = of.point_b[2];
+  constexpr int n = 1000;
   std::vector<double> s;
-  for (int k = 0; k <= 1000; ++k)
-    s.push_back(all * k / 1000.0);
-  double lowest = 0.0;
-  for (const LinePoint& point : profile(line, hold(line, X, d[2]), X, s))
-    lowest = std::min(lowest, point.z);
-  return -lowest;
+  for (int k = 0; k <= n; ++k)
+    s.push_back(all * k / n);
+  Shape out;
+  for (const LinePoint& point : profile(line, hold(line, X, d[2], above), X, s, above)) {
+    out.sag = std::max(out.sag, -point.z);
+    out.dry += of.point_a[2] + point.z > 0.0 ? 1.0 / (n + 1) : 0.0;
+  }
+  return out;
 }
 
 /// Lines in other water, or on another seabed, than those of the scene.
@@ -288,9 +298,16 @@ void judge_water(const model::Scene& scene, std::vector<Finding>& out) {
       other_bed(line.name, *line.seabed_depth);
   }
   for (const auto& line : std::get<std::vector<line::CatenaryLine>>(scene.forces)) {
+    const Shape hangs = shape(line);
+    constexpr double hardly = 0.01; // of its length: 1/8 of the weight of steel is 0.1 % of all
+    if (line.dry_weight.empty() && water.density > 0.0 && hangs.dry > hardly)
+      tell(line.name, false,
+           ": " + rounded_text(100.0 * hangs.dry, 2) +
+               " % of its length is out of the water in the reference pose, where it has its "
+               "weight in water, or zero if it floats: give 'dry_weight'");
     if (line.seabed)
       other_bed(line.name, -line.point_a[2]);
-    else if (const double lowest = bottomless ? 0.0 : line.point_a[2] - sag(line);
+    else if (const double lowest = bottomless ? 0.0 : line.point_a[2] - hangs.sag;
              lowest < -1.001 * water.depth)
       tell(line.name, true,
            " hangs down to z = " + rounded_text(lowest, 4) + " m, below the sea bed at " +
@@ -325,8 +342,8 @@ std::vector<Finding> look_at_mechanism(const model::Scene& scene, const system::
 
 std::vector<Finding> look_over(const model::Scene& scene, const system::System& s) {
   std::vector<Finding> out = look_at_bodies(scene, s);
-  for (const std::vector<Finding>& more :
-       {look_at_mechanism(scene, s), look_at_sea(scene), look_at_headings(scene, s)})
+  for (const std::vector<Finding>& more : {look_at_mechanism(scene, s), look_at_sea(scene),
+                                           look_at_headings(scene, s), look_at_hulls(scene)})
     out.insert(out.end(), more.begin(), more.end());
   return out;
 }

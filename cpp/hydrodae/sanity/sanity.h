@@ -50,6 +50,9 @@ std::vector<Finding> look_at_sea(const model::Scene& scene);
 /// Findings on waves that travel between the headings of the database.
 std::vector<Finding> look_at_headings(const model::Scene& scene, const system::System& system);
 
+/// Findings on the size and the freeboard of meshes.
+std::vector<Finding> look_at_hulls(const model::Scene& scene);
+
 /// All of them.
 std::vector<Finding> look_over(const model::Scene& scene, const system::System& system);
 

@@ -38,13 +38,14 @@ bool feels_heave(const joint::Vector12& gradient, int side) {
   return std::abs(gradient[6 * side + 2]) > 1e-9;
 }
 
-/// Do these laws load a meshed body by the pressure of still water?
-bool is_meshed(const element::Elements& laws) { return laws.shape.in_water() && laws.buoyant; }
+/// Do these laws load a body by the pressure of still water at its pose?
+bool follows_pose(const element::Elements& laws) { return laws.shape.in_water() && laws.buoyant; }
 
-/// Laws on meshes in still water, their bodies in the reference pose.
+/// Such laws in still water, their bodies in the reference pose.
 std::vector<element::AtRest> in_reference_pose(const system::System& s,
                                                const system::ElementList& list) {
-  const std::shared_ptr<const element::Elements> calm = list.laws->calm();
+  const std::shared_ptr<const element::Elements> still = list.laws->calm(),
+                                                 calm = still ? still : list.laws;
   const auto n = static_cast<Index>(calm->size());
   VectorX in(n * element::body_numbers), out(6 * n), slope(n * 6 * 18);
   element::BodyState<double> state{};
@@ -66,8 +67,8 @@ std::vector<element::AtRest> in_reference_pose(const system::System& s,
   return rests;
 }
 
-/// All laws about rest, in the order of `for_each_law`: on points where these are, on meshes in the
-/// reference pose.
+/// All laws about rest, in the order of `for_each_law`: on points where these are, of pressure at
+/// the reference pose.
 using Rests = std::vector<element::AtRest>;
 
 Rests laws_at_rest(const system::System& s, const system::Workspace<double>& ws) {
@@ -82,7 +83,7 @@ Rests laws_at_rest(const system::System& s, const system::Workspace<double>& ws)
                                    v.data());
     }
     for (element::AtRest& rest :
-         is_meshed(*list.laws) ? in_reference_pose(s, list) : element::at_rest(*list.laws, x))
+         follows_pose(*list.laws) ? in_reference_pose(s, list) : element::at_rest(*list.laws, x))
       rests.push_back(std::move(rest));
   }
   return rests;

@@ -9,7 +9,7 @@
 namespace hydrodae::sea {
 namespace {
 
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+constexpr Index slice = 32; ///< points of a page whose phasors are made at once
 
 /// Largest step that keeps the error of the quintic Hermite polynomial within the tolerance.
 double table_step(const VectorX& omega, const Eigen::MatrixXcd& coefficients,
@@ -32,42 +32,63 @@ double table_step(const VectorX& omega, const Eigen::MatrixXcd& coefficients,
 Signals::Signals(VectorX omega, Eigen::MatrixXcd coefficients, double end, double ramp,
                  const VectorX& whole)
     : omega_(std::move(omega)), coefficients_(std::move(coefficients)), ramp_(ramp) {
-  const Eigen::Index n = omega_.size(), rows = coefficients_.rows();
+  const Index n = omega_.size(), rows = coefficients_.rows();
   const double longest = table_step(omega_, coefficients_, whole);
   if (n <= few || !std::isfinite(longest))
     return;
-  const auto cells = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::ceil(end / longest)));
-  step_ = end / static_cast<double>(cells);
+  cells_ = std::max<Index>(1, static_cast<Index>(std::ceil(end / longest)));
+  step_ = end / static_cast<double>(cells_);
   // Re(C e) = [Re C, -Im C] [cos; sin], and the same for its derivatives, C i w and -C w^2.
-  constexpr Eigen::Index chunk = 32 * dense::lanes;
-  RowMajor parts = RowMajor::Zero(2 * n, dense::padded(3 * rows)), phasors(2 * n, chunk);
+  parts_ = RowMajor::Zero(2 * n, dense::padded(3 * rows));
   Eigen::MatrixXcd scaled = coefficients_;
   for (int d = 0; d < 3; ++d) {
-    parts.block(0, d * rows, n, rows) = scaled.real().transpose();
-    parts.block(n, d * rows, n, rows) = -scaled.imag().transpose();
+    parts_.block(0, d * rows, n, rows) = scaled.real().transpose();
+    parts_.block(n, d * rows, n, rows) = -scaled.imag().transpose();
     scaled = scaled * (std::complex<double>(0.0, step_) * omega_).asDiagonal();
   }
-  table_.resize(3 * rows, cells + 1);
-  RowMajor values(chunk, parts.cols());
-  for (Eigen::Index first = 0; first <= cells; first += chunk) {
-    for (Eigen::Index i = 0; i < n; ++i) { // turned on from the first: few enough for rounding
-      const double step = step_ * omega_[i], start = static_cast<double>(first) * step;
-      const double a = std::cos(step), b = std::sin(step);
-      double x = std::cos(start), y = std::sin(start);
-      for (Eigen::Index k = 0; k < chunk; ++k) {
-        phasors(i, k) = x;
-        phasors(n + i, k) = y;
+  turned_.resize(n, 4);
+  for (Index i = 0; i < n; ++i)
+    turned_.row(i).head<2>() << std::cos(step_ * omega_[i]), std::sin(step_ * omega_[i]);
+  phasors_.resize(2 * n, slice);
+  for (Page& page : pages_)
+    page.values.resize(points, parts_.cols());
+}
+
+/// The phasors of each slice are turned on from those before it; each page begins again, before
+/// rounding shows.
+void Signals::fill(Index number, Page& page) const {
+  const Index n = omega_.size();
+  for (Index i = 0; i < n; ++i) {
+    const double angle = static_cast<double>(number * points) * (step_ * omega_[i]);
+    turned_.row(i).tail<2>() << std::cos(angle), std::sin(angle);
+  }
+  page.values.setZero();
+  for (Index first = 0; first < points; first += slice) {
+    for (Index i = 0; i < n; ++i) {
+      const double a = turned_(i, 0), b = turned_(i, 1);
+      double x = turned_(i, 2), y = turned_(i, 3);
+      for (Index k = 0; k < slice; ++k) {
+        phasors_(i, k) = x;
+        phasors_(n + i, k) = y;
         const double next = a * x - b * y;
         y = a * y + b * x;
         x = next;
       }
+      turned_(i, 2) = x;
+      turned_(i, 3) = y;
     }
-    values.setZero();
-    dense::kernels().add_product(2 * n, chunk, phasors.data(), parts.cols(), parts.data(),
-                                 values.data());
-    const Eigen::Index count = std::min(chunk, cells + 1 - first);
-    table_.middleCols(first, count) = values.topLeftCorner(count, 3 * rows).transpose();
+    dense::kernels().add_product(2 * n, slice, phasors_.data(), parts_.cols(), parts_.data(),
+                                 page.values.row(first).data());
   }
+  page.number = number;
+}
+
+const double* Signals::at_point(Index k) const {
+  const Index number = k / points;
+  Page& page = pages_[static_cast<std::size_t>(number) % pages_.size()];
+  if (page.number != number)
+    fill(number, page);
+  return page.values.row(k - number * points).data();
 }
 
 void Signals::operator()(double t, Eigen::Ref<VectorX> out) const {
@@ -77,10 +98,10 @@ void Signals::operator()(double t, Eigen::Ref<VectorX> out) const {
     return;
   }
   const double place = step_ > 0.0 ? t / step_ : -1.0;
-  if (place < 0.0 || place > static_cast<double>(table_.cols() - 1)) {
+  if (place < 0.0 || place > static_cast<double>(cells_)) {
     sum(t, out);
   } else {
-    const auto k = std::min(static_cast<Eigen::Index>(place), table_.cols() - 2);
+    const auto k = std::min(static_cast<Index>(place), cells_ - 1);
     const double x = place - static_cast<double>(k), y = 1.0 - x;
     const double x3 = x * x * x, y3 = y * y * y;
     // Basis of the right end in x; that of the left end is its mirror image.
@@ -88,8 +109,8 @@ void Signals::operator()(double t, Eigen::Ref<VectorX> out) const {
     const double right1 = x3 * (-4.0 + 7.0 * x - 3.0 * x * x);
     const double left1 = -y3 * (-4.0 + 7.0 * y - 3.0 * y * y);
     const double right2 = 0.5 * x3 * y * y, left2 = 0.5 * y3 * x * x;
-    const Eigen::Index n = out.size(), rows = size();
-    const auto a = table_.col(k), b = table_.col(k + 1);
+    const Index n = out.size(), rows = size();
+    const Eigen::Map<const VectorX> a(at_point(k), 3 * rows), b(at_point(k + 1), 3 * rows);
     out.noalias() = left0 * a.segment(0, n) + right0 * b.segment(0, n) +
                     left1 * a.segment(rows, n) + right1 * b.segment(rows, n) +
                     left2 * a.segment(2 * rows, n) + right2 * b.segment(2 * rows, n);

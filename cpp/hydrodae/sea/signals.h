@@ -2,6 +2,7 @@
 /// Several functions of time made of the same wave components, at a cost that does not depend on
 /// their number.
 
+#include <array>
 #include <complex>
 
 #include "hydrodae/core/types.h"
@@ -19,10 +20,14 @@ Eigen::MatrixXcd frozen_coefficients(const Eigen::MatrixXcd& coefficients, const
 /// of each component. The step keeps four standard deviations of it below 1e-8 of the significant
 /// value (two standard deviations) of each f_r, or of what it is a part of. Outside [0, end] the
 /// sum itself.
+///
+/// Pages of the table are made where a time asks for them, and the last few are kept: the memory
+/// does not grow with the length of a run, and a value depends on its time alone. Not for two
+/// threads at once.
 class Signals {
 public:
   static constexpr double tolerance = 1e-8;
-  static constexpr Eigen::Index few = 4; ///< so many components are summed directly
+  static constexpr Index few = 4; ///< so many components are summed directly
 
   Signals() = default;
 
@@ -41,8 +46,8 @@ public:
   /// the times to come. Of its elements C those below `least` (n_signals,) count as zero.
   Signals frozen(const VectorX& theta, const VectorX& least) const;
 
-  Eigen::Index size() const { return coefficients_.rows(); }
-  Eigen::Index components() const { return coefficients_.cols(); }
+  Index size() const { return coefficients_.rows(); }
+  Index components() const { return coefficients_.cols(); }
   bool empty() const { return coefficients_.rows() == 0; }
   double step() const { return step_; }           ///< of the table [s]; 0 without table
   const VectorX& omega() const { return omega_; } ///< [rad/s]
@@ -50,12 +55,24 @@ public:
   VectorX largest() const { return coefficients_.cwiseAbs().rowwise().maxCoeff(); } ///< |C_ri|
 
 private:
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  static constexpr Index points = 256; ///< of a page
+  struct Page {
+    Index number = -1; ///< -1: not made yet
+    RowMajor values;   ///< (points, 3 n_signals, padded): f, h f', h^2 f''
+  };
   void sum(double t, Eigen::Ref<VectorX> out) const;
+  void fill(Index number, Page& page) const;
+  const double* at_point(Index k) const; ///< f, h f', h^2 f'' at t = k h; valid for one more call
 
   VectorX omega_;
   Eigen::MatrixXcd coefficients_;
   double ramp_ = 0.0, step_ = 0.0;
-  MatrixX table_; ///< (3 n_signals, points): f, h f', h^2 f''
+  Index cells_ = 0; ///< of the table
+  RowMajor parts_;  ///< (2 n, 3 n_signals, padded) factors of cos w t and sin w t
+  mutable std::array<Page, 4> pages_;
+  mutable Eigen::Matrix<double, Eigen::Dynamic, 4> turned_; ///< cos and sin of h w, then of w t
+  mutable RowMajor phasors_;                                ///< (2 n, slice) scratch
 };
 
 } // namespace hydrodae::sea

@@ -16,7 +16,8 @@ io::Attributes header(const model::Scene& scene, const std::vector<std::string>&
           {"case_text", scene.text},
           {"case_path", scene.path},
           {"case_overrides", lines_of(scene.overrides)},
-          {"hydro_sha256", model::fingerprint_of_databases(scene)},
+          {"hydro_sha256", scene.database ? scene.files.front().sha256 : ""},
+          {"input_files", model::text_of_files(scene.files)},
           {"version", std::string(version)},
           {"notes", lines_of(notes)}};
 }

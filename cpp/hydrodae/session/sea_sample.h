@@ -9,9 +9,12 @@
 namespace hydrodae::session {
 
 /// Keeps the work of the power take-offs at the samples after the ramp, for the intervals of their
-/// means: the powers between samples are exact, however far apart these are.
+/// means: the powers between samples are exact, however far apart these are. Each time that there
+/// are `most_samples`, every second is left out.
 class SeaSample {
 public:
+  static constexpr std::size_t most_samples = 16384;
+
   /// @param channels columns of the rows, in their order
   SeaSample(const model::Scene& scene, const std::vector<Channel>& channels);
 
@@ -21,16 +24,17 @@ public:
   /// Period of the sea, and the intervals of the mean powers that are known already.
   void write(RunStatistics& statistics) const;
 
-  void remember(Archive& a) { a(work_); }
+  void remember(Archive& a) { a(work_, taken_, every_); }
 
 private:
   struct Column {
     std::string name; ///< of the load
     std::size_t place = 0;
   };
-  std::vector<Column> columns_; ///< of the work of each load; none without an irregular sea
-  double step_, period_;        ///< [s]
-  std::vector<double> work_;    ///< one value a column, sample after sample [J]
+  std::vector<Column> columns_;       ///< of the work of each load; none without an irregular sea
+  double step_, period_;              ///< [s]
+  std::vector<double> work_;          ///< one value a column, sample after sample [J]
+  std::size_t taken_ = 0, every_ = 1; ///< rows after the ramp; one of so many is kept
 };
 
 } // namespace hydrodae::session

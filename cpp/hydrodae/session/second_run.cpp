@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "hydrodae/control/law.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/run/controllers.h"
 #include "hydrodae/run/simulation.h"
 
 namespace hydrodae::session {
@@ -17,6 +17,8 @@ namespace {
 
 constexpr double looser = 10.0;       ///< tolerance of the second run over that of the first
 constexpr double largest_rtol = 1e-2; ///< of a second run; beyond, steps do not follow a tolerance
+
+constexpr const char *of_comparison = "comparison", *of_second = "second_run"; ///< in checkpoints
 
 /// Answers of a controller, each with its sampling instant [s].
 using Answers = std::vector<std::pair<double, std::vector<double>>>;
@@ -35,7 +37,10 @@ public:
   bool hears_crossings() const override { return law_->hears_crossings(); }
   void crossed(double t) override { law_->crossed(t); }
   double next_time(double t) const override { return law_->next_time(t); }
-  void remember(Archive& a) override { law_->remember(a); }
+  void remember(Archive& a) override {
+    law_->remember(a);
+    a(*answers_);
+  }
   void restored(double t) override { law_->restored(t); }
   std::vector<std::string> unit_notes() const override { return law_->unit_notes(); }
   void finish(const std::string& error) override { law_->finish(error); }
@@ -61,26 +66,6 @@ public:
 private:
   std::shared_ptr<const Answers> answers_;
 };
-
-template <class List> bool calls_functions(const List& forces) {
-  return std::any_of(forces.begin(), forces.end(), [](const auto& force) {
-    if constexpr (requires { force.function; })
-      return static_cast<bool>(force.function);
-    else
-      return false;
-  });
-}
-
-/// Does the scene call functions of the program that runs it, which may be one thread's only?
-bool calls_functions(const model::Scene& scene) {
-  return std::apply([](const auto&... list) { return (calls_functions(list) || ...); },
-                    scene.forces) ||
-         std::any_of(scene.constraints.begin(), scene.constraints.end(),
-                     [](const model::Constraint& c) {
-                       const auto* driven = c.as<model::DrivenCoordinate>();
-                       return driven && driven->drive.function;
-                     });
-}
 
 /// Lets the second run have its own laws where they can be made again, else recorded answers.
 /// @returns names of the controllers whose answers are repeated
@@ -118,6 +103,23 @@ double divisor(const SecondRunPlan& plan, int order) {
   return std::pow(plan.ratio, fixed ? std::min(p, 0.5 * p + 1.0) : p / (p + 1.0)) - 1.0;
 }
 
+/// Does something bound the steps that no longer step may pass: a longest step, instants of
+/// controllers, the past that loads depend on? Both runs of a looser tolerance would take the same
+/// steps there, and make the same error.
+bool has_firm_bounds(const model::Scene& scene) {
+  const auto is_late = [](const auto& list) {
+    return std::any_of(list.begin(), list.end(), [](const auto& force) {
+      if constexpr (requires { force.delay; })
+        return force.delay > 0.0;
+      else
+        return false;
+    });
+  };
+  return scene.solver.max_step > 0.0 || !scene.controllers.empty() ||
+         (scene.hydro && scene.hydro->radiation == "convolution") ||
+         std::apply([&](const auto&... list) { return (is_late(list) || ...); }, scene.forces);
+}
+
 } // namespace
 
 SecondRunPlan plan_second_run(model::Scene& scene, const std::string& method) {
@@ -134,7 +136,7 @@ SecondRunPlan plan_second_run(model::Scene& scene, const std::string& method) {
     plan.ratio = 2.0;
     plan.how = "a second run with steps of " + number_text(o.step) + " s";
   } else {
-    const bool tighter = looser * o.rtol > largest_rtol;
+    const bool tighter = looser * o.rtol > largest_rtol || has_firm_bounds(scene);
     plan.looser = tighter ? 1.0 / looser : looser;
     o.rtol *= plan.looser;
     plan.ratio = tighter ? 1.0 : looser;
@@ -143,19 +145,55 @@ SecondRunPlan plan_second_run(model::Scene& scene, const std::string& method) {
   const std::vector<std::string> repeated = part_controllers(scene, plan.scene);
   if (!repeated.empty())
     plan.how += ", with the recorded answers of controller " + joined(repeated);
-  plan.afterwards =
-      calls_functions(scene) || std::any_of(scene.controllers.begin(), scene.controllers.end(),
-                                            [](const model::Controller& c) {
-                                              const auto* outside = c.as<control::Outside>();
-                                              return outside && outside->make;
-                                            });
+  plan.afterwards = run::asks_outside(scene);
   return plan;
 }
 
-SecondRun::SecondRun(SecondRunPlan plan, accuracy::Comparison& comparison)
+SecondRun::SecondRun(SecondRunPlan plan, accuracy::Comparison& comparison,
+                     const run::Checkpoint* from)
     : plan_(std::move(plan)), comparison_(comparison) {
-  if (!plan_.afterwards)
-    thread_ = std::thread([this] { march({}); });
+  if (from) {
+    hydrodae::restore(from->output, of_comparison, comparison_);
+    hydrodae::restore(from->output, of_second, next_);
+    from_ = from->second;
+    stopped_ = from->stopped;
+  }
+  if (plan_.afterwards || (from && !from_))
+    return;
+  has_ended_ = false;
+  thread_ = std::thread([this] { march({}); });
+}
+
+void SecondRun::save(run::Checkpoint& checkpoint) {
+  comparison_.let_pass(true);
+  std::unique_lock lock(mutex_);
+  asked_ = true;
+  changed_.wait(lock, [&] { return waits_ || has_ended_; });
+  asked_ = waits_ = false;
+  if (!has_ended_)
+    checkpoint.second = std::move(saved_);
+  checkpoint.stopped = stopped_;
+  hydrodae::save(checkpoint.output, of_comparison, comparison_);
+  hydrodae::save(checkpoint.output, of_second, next_);
+  changed_.notify_all();
+  lock.unlock();
+  comparison_.let_pass(false);
+}
+
+void SecondRun::stop_for_save(run::Simulation& simulation, long next) {
+  std::unique_lock lock(mutex_);
+  saved_ = simulation.state();
+  next_ = next;
+  waits_ = true;
+  changed_.notify_all();
+  changed_.wait(lock, [&] { return !waits_; });
+}
+
+void SecondRun::end() {
+  comparison_.end_second();
+  const std::lock_guard lock(mutex_);
+  has_ended_ = true;
+  changed_.notify_all();
 }
 
 SecondRun::~SecondRun() { give_up(); }
@@ -167,8 +205,10 @@ void SecondRun::march(const std::function<bool()>& ask) {
     VectorX y, places;
     const double end = plan_.scene.solver.end_time, dt = plan_.scene.output.step;
     const auto samples = static_cast<long>(std::floor(end / dt * (1.0 + 1e-12)));
-    long next = 0;
+    long next = next_;
     bool wanted = true;
+    if (from_)
+      simulation.restore(*from_);
     const auto sample = [&] {
       const double t = simulation.time();
       while (wanted && next <= samples && static_cast<double>(next) * dt <= t * (1.0 + 1e-14)) {
@@ -179,8 +219,11 @@ void SecondRun::march(const std::function<bool()>& ask) {
       }
     };
     sample();
-    while (wanted && !given_up_ && !simulation.finished())
+    while (wanted && !given_up_ && !simulation.finished()) {
+      if (asked_)
+        stop_for_save(simulation, next);
       simulation.advance(end, sample);
+    }
     if (next <= samples)
       stopped_ = "the runs were stopped";
     simulation.close();
@@ -191,7 +234,7 @@ void SecondRun::march(const std::function<bool()>& ask) {
   } catch (const std::exception& error) {
     stopped_ = plan_.how + " " + error.what();
   }
-  comparison_.end_second();
+  this->end();
 }
 
 void SecondRun::finish(const std::function<bool()>& ask) {
@@ -201,7 +244,7 @@ void SecondRun::finish(const std::function<bool()>& ask) {
   while (!comparison_.wait_for_second())
     if (!ask())
       return give_up();
-  thread_.join();
+  give_up(); // it has ended
 }
 
 void SecondRun::give_up() {

@@ -2,13 +2,20 @@
 /// The second run of a scene, by which the error of the first is estimated.
 
 #include <atomic>
+#include <condition_variable>
 #include <functional>
-#include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
 #include "hydrodae/accuracy/comparison.h"
 #include "hydrodae/model/scene.h"
+#include "hydrodae/run/checkpoint.h"
+
+namespace hydrodae::run {
+class Simulation;
+}
 
 namespace hydrodae::session {
 
@@ -24,18 +31,24 @@ struct SecondRunPlan {
 
 /// Changes `scene` so that the answers of controllers outside the kernel are recorded, and returns
 /// the plan of the second run. It has 10 rtol, or twice the fixed step; where that is beyond the
-/// largest tolerance, a tenth of it. Steps that waves
-/// bound change as those that the tolerance bounds: else both runs would make the same error.
+/// largest tolerance, or where something bounds the steps that no longer one may pass, a tenth of
+/// rtol. Steps that waves or such bounds end change as those that the tolerance bounds: else both
+/// runs would make the same error.
 /// @param method of the second run at the tolerance of the first; empty: the method of the first
 SecondRunPlan plan_second_run(model::Scene& scene, const std::string& method);
 
 /// Runs it, in a thread of its own unless the plan says afterwards. The comparison must outlive it.
 class SecondRun {
 public:
-  SecondRun(SecondRunPlan plan, accuracy::Comparison& comparison);
+  /// @param from that it goes on from; null: from the start
+  SecondRun(SecondRunPlan plan, accuracy::Comparison& comparison,
+            const run::Checkpoint* from = nullptr);
   ~SecondRun();
   SecondRun(const SecondRun&) = delete;
   SecondRun& operator=(const SecondRun&) = delete;
+
+  /// Adds to a checkpoint what this run goes on from: it is stopped between two steps meanwhile.
+  void save(run::Checkpoint& checkpoint);
 
   /// The first run has reached its end: waits for the second, or makes it now.
   /// @param ask called now and then; false: stop
@@ -50,11 +63,19 @@ public:
 
 private:
   void march(const std::function<bool()>& ask);
+  void stop_for_save(run::Simulation& simulation, long next);
+  void end();
 
   SecondRunPlan plan_;
   accuracy::Comparison& comparison_;
   std::atomic<bool> given_up_ = false;
   std::string stopped_; ///< why the second run did not reach the end; empty: it did
+  std::optional<run::State> from_, saved_;
+  long next_ = 0; ///< sample, where `saved_` is or `from_` was
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::atomic<bool> asked_ = false;       ///< for `saved_`
+  bool waits_ = false, has_ended_ = true; ///< has_ended_: no thread is at work
   std::thread thread_;
 };
 

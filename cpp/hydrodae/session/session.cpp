@@ -61,12 +61,11 @@ public:
     before.drop();
   }
 
-  /// Estimates the error of the run that is to begin by that second run.
-  void compare_with(SecondRunPlan plan) {
-    constexpr std::size_t most_ahead = 10000; // samples that wait for the slower of the two runs
-    comparison_ = std::make_unique<accuracy::Comparison>(simulation_.regime(),
-                                                         plan.afterwards ? 0 : most_ahead);
-    second_ = std::make_unique<SecondRun>(std::move(plan), *comparison_);
+  /// Estimates the error of the run that is to begin by that second run, which begins too, or goes
+  /// on from its part of a checkpoint.
+  void compare_with(SecondRunPlan plan, const run::Checkpoint* from) {
+    comparison_ = std::make_unique<accuracy::Comparison>(simulation_.regime(), plan.afterwards);
+    second_ = std::make_unique<SecondRun>(std::move(plan), *comparison_, from);
   }
 
   /// Says why the error of the run is not estimated.
@@ -75,6 +74,7 @@ public:
   RunStatistics operator()(const std::string& path, const RunOptions& options) {
     path_ = path;
     checkpoint_ = options.checkpoint;
+    verify_ = options.verify;
     try {
       statistics_.status = march() ? "completed" : "interrupted";
       simulation_.close();
@@ -170,8 +170,10 @@ private:
         (!stops && seconds_since(last_checkpoint_) < checkpoint_))
       return;
     file_->flush();
-    run::Checkpoint checkpoint{simulation_.state(), {}};
+    run::Checkpoint checkpoint{simulation_.state(), {}, {}, verify_, ""};
     save(checkpoint.output, "session", *this);
+    if (second_)
+      second_->save(checkpoint);
     run::write_checkpoint(path_, scene(), checkpoint);
     last_checkpoint_ = Clock::now();
   }
@@ -232,7 +234,7 @@ private:
   run::Simulation simulation_;
   system::LinearLimits limits_;
   SeaSample sea_sample_;
-  std::string path_;
+  std::string path_, verify_; ///< verify_: method of the second run, as it was asked for
   std::unique_ptr<io::ResultsFile> file_;
   std::vector<double> row_;
   RunStatistics statistics_;
@@ -255,11 +257,16 @@ void check_options(const model::Scene& scene, const std::string& path, const Run
     cosim::require_fmu_states(scene);
   if (resumable && path.empty())
     throw CaseError("a checkpoint stands beside the results file: name one");
+  if (options.strict && scene.solver.accuracy == "none")
+    throw CaseError(
+        "--strict needs an estimate of the error, which solver.accuracy = \"none\" leaves "
+        "out; leave out one of them");
   if (options.verify.empty())
     return;
   if (options.resume)
-    throw CaseError("a run that goes on from a checkpoint cannot be verified: the second run would "
-                    "have to start again; leave out --verify, or --resume");
+    throw CaseError(
+        "a run that goes on from a checkpoint keeps its second run, whose method cannot "
+        "change; leave out --verify, or --resume");
   if (scene.solver.accuracy == "none")
     throw CaseError("--verify is an estimate of the error, which solver.accuracy = \"none\" leaves "
                     "out; leave out one of them");
@@ -269,28 +276,33 @@ void check_options(const model::Scene& scene, const std::string& path, const Run
 } // namespace session
 
 RunStatistics simulate(const model::Scene& given, const std::string& output_path,
-                       const Progress& progress, const RunOptions& options) {
-  session::check_options(given, output_path, options);
+                       const Progress& progress, const RunOptions& asked) {
+  session::check_options(given, output_path, asked);
+  RunOptions options = asked;
   model::Scene scene = given;
   cosim::join_tcp(scene);
   cosim::join_fmus(scene);
   if (options.checkpoint >= 0.0)
     run::require_checkpoint_place(output_path);
-  if (!output_path.empty())
-    io::check_output(output_path, {scene.path, scene.database ? scene.database->path : ""});
+  if (!output_path.empty()) {
+    std::vector<std::string> inputs{scene.path};
+    for (const model::InputFile& file : scene.files)
+      inputs.push_back(file.path);
+    io::check_output(output_path, inputs);
+  }
   std::optional<run::Checkpoint> from;
-  if (options.resume)
+  if (options.resume) {
     from = run::read_checkpoint(output_path, scene);
-  const bool estimated = scene.solver.accuracy != "none";
+    options.verify = from->verify;
+  }
   std::optional<session::SecondRunPlan> plan;
-  if (estimated && !options.resume)
+  if (scene.solver.accuracy != "none")
     plan = session::plan_second_run(scene, options.verify);
   session::Session session(scene, progress);
   if (plan)
-    session.compare_with(std::move(*plan));
+    session.compare_with(std::move(*plan), from ? &*from : nullptr);
   else
-    session.do_not_estimate(estimated ? "the run went on from a checkpoint"
-                                      : "solver.accuracy = \"none\"");
+    session.do_not_estimate("solver.accuracy = \"none\"");
   if (from)
     session.resume(output_path, *from);
   else if (!output_path.empty())

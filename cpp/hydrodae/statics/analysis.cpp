@@ -63,21 +63,12 @@ void add_bodies(const Regime& s, const system::Workspace<double>& ws, const Vect
 
 void add_hydro_map(const model::Scene& scene, const Regime& s, const system::Workspace<double>& ws,
                    LinearModel& out) {
+  out.hydro_map = statics::hydro_map(s, ws);
   for (const system::HydroBody& hb : s.hydro.bodies) {
-    const auto body = static_cast<std::size_t>(hb.body);
-    const system::BodyData& b = s.bodies[body];
-    const auto d = water::hydro_motion_gradient(s.hydro.axes, hb, ws.bodies[body]);
-    Matrix6 by_velocity;
-    by_velocity << d.U_v, d.U_w;
-    for (std::size_t c = 0; c < 6; ++c) {
-      if (hb.moving[c] < 0)
+    for (int c = 0; c < 6; ++c) {
+      if (hb.moving[static_cast<std::size_t>(c)] < 0)
         continue;
-      Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(s.n_u);
-      for (int k = 0; k < b.n_active; ++k)
-        row[b.u0 - s.u0 + k] =
-            by_velocity(static_cast<Eigen::Index>(c), b.active[static_cast<std::size_t>(k)]);
-      add_row(out.hydro_map, row);
-      out.hydro_labels.push_back(build::hydro_label(scene, hb, static_cast<int>(c)));
+      out.hydro_labels.push_back(build::hydro_label(scene, hb, c));
       const system::HydroBody& carrier = s.hydro.bodies[static_cast<std::size_t>(hb.carrier)];
       out.hydro_yaws.push_back(carrier.yaw); // by which the waves meet it
       out.hydro_points.push_back(s.bodies[static_cast<std::size_t>(carrier.body)].position);
@@ -265,7 +256,7 @@ LinearModel linearize(const model::Scene& scene) {
   out.notes = system.notes;
   out.water_depth = model::water(scene).depth;
   out.gravity = model::water(scene).gravity;
-  out.hydro_map = out.motion_map = out.damper_map = MatrixX(0, s.n_u);
+  out.motion_map = out.damper_map = MatrixX(0, s.n_u);
   system::Workspace<double> ws(s);
   const VectorX rest = VectorX::Zero(s.n);
   system::unpack<double>(s, y.data(), rest.data(), ws.bodies);

@@ -12,6 +12,7 @@
 #include "hydrodae/math/dense.h"
 #include "hydrodae/sanity/sanity.h"
 #include "hydrodae/statics/balance.h"
+#include "hydrodae/statics/fit_at_waves.h"
 #include "hydrodae/statics/static_step.h"
 #include "hydrodae/system/mechanisms.h"
 #include "hydrodae/system/residual.h"
@@ -213,6 +214,8 @@ System starting_system(const model::Scene& scene) {
     build::add_sea(scene, s);
   }
   sanity::note_findings(scene, s);
+  for (const sanity::Finding& finding : look_at_fit(scene, s))
+    s.notes.push_back((finding.serious ? "looks wrong: " : "") + finding.text);
   return s;
 }
 

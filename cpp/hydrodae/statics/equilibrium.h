@@ -25,6 +25,9 @@ struct LinearMatrices {
 LinearMatrices linear_matrices(const system::Regime& regime, const system::Pattern& pattern,
                                const VectorX& y);
 
+/// T (n_moving, n_u) of the hydrodynamic velocities U = T xi'.
+MatrixX hydro_map(const system::Regime& regime, const system::Workspace<double>& workspace);
+
 /// A scene at rest.
 struct Rest {
   VectorX y;                               ///< with the reactions

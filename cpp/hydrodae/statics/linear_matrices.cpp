@@ -3,6 +3,7 @@
 #include "hydrodae/math/dense.h"
 #include "hydrodae/statics/equilibrium.h"
 #include "hydrodae/system/residual.h"
+#include "hydrodae/water/hydro_axes_gradient.h"
 
 namespace hydrodae::statics {
 
@@ -59,6 +60,23 @@ LinearMatrices linear_matrices(const Regime& s, const system::Pattern& pattern, 
   VectorX r(s.n);
   system::residual<double>(s, state, 0.0, y.data(), rest.data(), r.data());
   out.forces = -r.segment(s.u0, s.n_u);
+  return out;
+}
+
+MatrixX hydro_map(const Regime& s, const system::Workspace<double>& ws) {
+  MatrixX out = MatrixX::Zero(s.hydro.n_moving, s.n_u);
+  for (const system::HydroBody& hb : s.hydro.bodies) {
+    const auto body = static_cast<std::size_t>(hb.body);
+    const system::BodyData& b = s.bodies[body];
+    const auto d = water::hydro_motion_gradient(s.hydro.axes, hb, ws.bodies[body]);
+    Matrix6 by_velocity;
+    by_velocity << d.U_v, d.U_w;
+    for (Index c = 0; c < 6; ++c) {
+      const int row = hb.moving[static_cast<std::size_t>(c)];
+      for (int k = 0; k < b.n_active && row >= 0; ++k)
+        out(row, b.u0 - s.u0 + k) = by_velocity(c, b.active[static_cast<std::size_t>(k)]);
+    }
+  }
   return out;
 }
 

@@ -91,7 +91,8 @@ void Assembly<Sink>::memory_columns(const HydroBody& i, const std::vector<int>& 
       if (i.moving[c] >= 0)
         column[c] = s.hydro.output(i.moving[c], z);
     if (i.table >= 0)
-      column *= ws.state.weights[s.hydro.weight_of_state[static_cast<std::size_t>(z)]];
+      if (const int weight = s.hydro.weight_of_state[static_cast<std::size_t>(z)]; weight >= 0)
+        column *= ws.state.weights[weight];
     const Vector6 load = L * column;
     for (int k = 0; k < b.n_active; ++k)
       sink.by_y(b.u0 + k, s.hydro.z0 + z, load[b.active[k]]);
@@ -118,6 +119,8 @@ void Assembly<Sink>::table_columns(std::size_t number, const HydroLoadGradient& 
                   moving_rows(hb, water::blend(table.damping, slopes)) * U;
   for (const int z : s.hydro.links[number].states) {
     const int weight = s.hydro.weight_of_state[static_cast<std::size_t>(z)];
+    if (weight < 0)
+      continue;
     for (int c = 0; c < 6; ++c)
       if (hb.moving[c] >= 0)
         force[c] +=

@@ -52,6 +52,15 @@ double draught(const hydro::Database& database, const hydro::Hydrostatics& h) {
 
 LinearLimits linear_limits(const model::Scene& scene, const System& s) {
   LinearLimits out;
+  for (const model::Mode& mode : scene.modes) {
+    if (mode.stiffness == 0.0)
+      continue;
+    const auto body = std::find_if(s.bodies.begin(), s.bodies.end(),
+                                   [&](const BodyData& b) { return b.name == mode.body; });
+    out.modes.push_back(
+        {static_cast<int>(body - s.bodies.begin()), in_quotes(mode.body) + ", mode " + mode.name,
+         std::sqrt(LinearLimits::softening * mode.stiffness / mode.mass), std::nullopt});
+  }
   if (!scene.hydro || !scene.database)
     return out;
   if (scene.sea.phase == "fixed" && !scene.waves.empty())
@@ -90,6 +99,8 @@ void watch(LinearLimits& limits, double t, const std::vector<BodyState<double>>&
     take(b.rise, t, std::abs(moved[2]), b.half_draught);
     take(b.drift, t, moved.head<2>().norm(), limits.tenth_wave);
   }
+  for (LinearLimits::Mode& m : limits.modes)
+    take(m.spin, t, states[static_cast<std::size_t>(m.body)].w.norm(), m.largest_rate);
 }
 
 std::vector<std::string> notes(const LinearLimits& limits) {
@@ -106,6 +117,13 @@ std::vector<std::string> notes(const LinearLimits& limits) {
       out.push_back(sentence(b.name, "moves off its place in the waves", *b.drift, 1.0, "m",
                              "a tenth of the wave length: " + rounded(limits.tenth_wave, "m")));
   }
+  for (const LinearLimits::Mode& m : limits.modes)
+    if (m.spin)
+      out.push_back("body " + m.name + ": turns at " + rounded(m.spin->value, "rad/s") +
+                    " at t = " + rounded(m.spin->time, "s") + ", at most " +
+                    rounded(m.spin->largest, "rad/s") + "; beyond " +
+                    rounded(m.largest_rate, "rad/s") +
+                    " the centrifugal loads that it lacks are more than 1 % of its stiffness");
   return out;
 }
 

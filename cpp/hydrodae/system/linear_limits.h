@@ -1,5 +1,6 @@
 #pragma once
-/// Where a run leaves what linear hydrodynamics are made for: small motion about the mean pose.
+/// Where a run leaves what linear hydrodynamics are made for, small motion about the mean pose; and
+/// what modes are made for, slow turns.
 
 #include <optional>
 #include <string>
@@ -31,13 +32,25 @@ struct LinearLimits {
     std::optional<Crossing> drift;      ///< horizontal [m], beyond a tenth of the wave length
     void remember(Archive& a) { a(turn, rise, drift); }
   };
+  /// A mode of a body that turns: its centrifugal loads are those of a stiffness -m w^2.
+  struct Mode {
+    int body = 0;
+    std::string name;        ///< of the body, then of the mode
+    double largest_rate = 0; ///< at which that is `softening` of its stiffness [rad/s]
+    std::optional<Crossing> spin;
+    void remember(Archive& a) { a(spin); }
+  };
+  static constexpr double softening = 0.01;
   static constexpr double largest_turn = 15.0 * pi / 180.0; ///< [rad]
   double tenth_wave = INFINITY; ///< tenth of the wave length, which matters where the phase of the
                                 ///< waves does not follow the bodies [m]
   std::vector<Body> bodies;
+  std::vector<Mode> modes;
   void remember(Archive& a) {
     for (Body& b : bodies)
       b.remember(a);
+    for (Mode& m : modes)
+      m.remember(a);
   }
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "hydrodae/core/text.h"
 
@@ -41,7 +42,7 @@ MotionScale::MotionScale(Regime& s, const Pattern& pattern, const VectorX& y, co
                          const VectorX& forced, double hold, double rtol)
     : s_(s), start_(y.head(s.n_q)), expected_(forced), reached_(VectorX::Zero(s.n_groups)),
       least_(VectorX::Zero(s.n_groups)), expected_translation_(forced), translated_(reached_),
-      hold_(VectorX::Constant(s.n_groups, hold)) {
+      hold_(VectorX::Constant(s.n_groups, hold)), since_(VectorX::Zero(s.n_groups)) {
   for (const BodyData& b : s.bodies)
     if (b.group >= 0) {
       constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -50,17 +51,30 @@ MotionScale::MotionScale(Regime& s, const Pattern& pattern, const VectorX& y, co
                                  std::min(1.0, rounding_error * epsilon * place / (full * rtol)));
       hold_[b.group] = std::max(hold_[b.group], settled * b.time_scale);
     }
-  expect_start(pattern, y, yp);
+  expect_start(pattern, 0.0, y, yp);
+  for (const HydroBody& hb : s_.hydro.bodies) {
+    const BodyData& b = s_.bodies[static_cast<std::size_t>(hb.body)];
+    if (b.group < 0)
+      continue;
+    const Vector3 turn = rotation_vector<double>(b.orientation);
+    for (int k = 0; k < b.n_active; ++k) {
+      const int c = b.active[k];
+      const double moved = c < 3 ? (b.position - b.reference)[c] / b.lever : turn[c - 3];
+      expect(b, c < 3, std::abs(moved));
+    }
+  }
   if (s.scales_follow)
     update(0.0);
 }
 
 /// Velocities and accelerations of the start over the time scale of each coordinate, or the shorter
-/// one of its own stiffness; and how far floating bodies are from the pose of their hydrostatics.
-void MotionScale::expect_start(const Pattern& pattern, const VectorX& y, const VectorX& yp) {
+/// one of its own stiffness. (How far floating bodies are from the pose of their hydrostatics, the
+/// constructor adds.)
+void MotionScale::expect_start(const Pattern& pattern, double t, const VectorX& y,
+                               const VectorX& yp) {
   JacobianParts parts(pattern);
   JacobianWorkspace workspace(s_);
-  jacobian(s_, pattern, workspace, 0.0, y.data(), yp.data(), parts);
+  jacobian(s_, pattern, workspace, t, y.data(), yp.data(), parts);
   VectorX mass = VectorX::Zero(s_.n), stiffness = VectorX::Zero(s_.n);
   for (Index column = 0; column < s_.z0; ++column)
     for (Index k = pattern.column_start[column]; k < pattern.column_start[column + 1]; ++k) {
@@ -83,17 +97,26 @@ void MotionScale::expect_start(const Pattern& pattern, const VectorX& y, const V
           std::max(std::abs(y[u]) / rate / unit, std::abs(yp[u]) / (rate * rate) / unit);
       expect(b, b.active[k] < 3, most);
     }
-  for (const HydroBody& hb : s_.hydro.bodies) {
-    const BodyData& b = s_.bodies[static_cast<std::size_t>(hb.body)];
-    if (b.group < 0)
-      continue;
-    const Vector3 turn = rotation_vector<double>(b.orientation);
-    for (int k = 0; k < b.n_active; ++k) {
-      const int c = b.active[k];
-      const double moved = c < 3 ? (b.position - b.reference)[c] / b.lever : turn[c - 3];
-      expect(b, c < 3, std::abs(moved));
+}
+
+bool MotionScale::begin_again(const Pattern& pattern, double t, const VectorX& y,
+                              const VectorX& yp) {
+  if (!s_.scales_follow)
+    return false;
+  const VectorX expected = std::exchange(expected_, VectorX::Zero(s_.n_groups)),
+                translation = std::exchange(expected_translation_, VectorX::Zero(s_.n_groups));
+  expect_start(pattern, t, y, yp);
+  bool grows = false;
+  for (Index g = 0; g < s_.n_groups; ++g) {
+    if (std::min(expected_[g] / full, 1.0) > slack_of_scales * s_.motion_scale[g]) {
+      since_[g] = t;
+      grows = true;
+    } else {
+      expected_[g] = expected[g];
+      expected_translation_[g] = translation[g];
     }
   }
+  return grows && update(t);
 }
 
 void MotionScale::expect(const BodyData& body, bool translation, double motion) {
@@ -111,7 +134,7 @@ bool MotionScale::update(double t) {
     scale = wanted;
   };
   for (Index g = 0; g < s_.n_groups; ++g) {
-    const double left = std::exp(-std::max(0.0, t / hold_[g] - 1.0));
+    const double left = std::exp(-std::max(0.0, (t - since_[g]) / hold_[g] - 1.0));
     const auto part = [&](double reached, double expected) {
       return std::clamp(std::max(reached, left * expected) / full, least_[g], 1.0);
     };
@@ -141,7 +164,8 @@ void MotionScale::accept(double t, const VectorX& y) {
 }
 
 void MotionScale::remember(Archive& a) {
-  a(reached_, translated_, s_.motion_scale, s_.translation_scale);
+  a(reached_, translated_, expected_, expected_translation_, since_, s_.motion_scale,
+    s_.translation_scale);
   if (!a.saves())
     set_scales(s_);
 }

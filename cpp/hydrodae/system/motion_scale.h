@@ -10,6 +10,9 @@ namespace hydrodae::system {
 /// Part of the motion of a group below which the tolerance of translations does not follow them.
 inline constexpr double least_translation = 1e-3;
 
+/// Motion up to which a body counts as at rest: what rounding moves [levers, rad].
+inline constexpr double rest_motion = 1e-10;
+
 /// Keeps System::motion_scale: by group, the part of the full scales (a tenth of a body's lever)
 /// that the motion takes, between 1 and what rounding of the positions leaves. It is the largest of
 /// the displacement reached so far and, fading, of what the start and the loads let expect. And
@@ -28,13 +31,16 @@ public:
   /// stayed far below what was expected.
   void accept(double t, const VectorX& y);
 
+  /// A load has set in at t that moves more than the scales allow for: the motion to expect of y,
+  /// y' counts as at a start. False where they allow for it.
+  bool begin_again(const Pattern& pattern, double t, const VectorX& y, const VectorX& yp);
+
   /// Largest displacement so far from the start, by group in levers or rad (n_groups,).
   const VectorX& reached() const { return reached_; }
 
   /// Has nothing moved by more than rounding? So it is where nothing can move.
   bool at_rest() const {
-    constexpr double none = 1e-10; // levers or rad
-    return s_.lambda0 == 0 || (reached_.size() > 0 && reached_.maxCoeff() < none);
+    return s_.lambda0 == 0 || (reached_.size() > 0 && reached_.maxCoeff() < rest_motion);
   }
 
   /// Groups whose motion is below what rounding lets the tolerance follow.
@@ -44,7 +50,7 @@ public:
   void remember(Archive& a);
 
 private:
-  void expect_start(const Pattern& pattern, const VectorX& y, const VectorX& yp);
+  void expect_start(const Pattern& pattern, double t, const VectorX& y, const VectorX& yp);
   void expect(const BodyData& body, bool translation, double motion);
   bool update(double t);
 
@@ -52,7 +58,8 @@ private:
   VectorX start_;                      ///< positions (n_q,)
   VectorX expected_, reached_, least_; ///< by group
   VectorX expected_translation_, translated_;
-  VectorX hold_; ///< by group [s]
+  VectorX hold_;  ///< by group [s]
+  VectorX since_; ///< by group: time from which on the expected motion is believed [s]
 };
 
 /// Displacement of each body from the positions `from` (n_q,): translations over the lever, or the

@@ -53,6 +53,7 @@ struct BodyData {
   Index norm = -1;              ///< of its quaternion, among those of all bodies; -1 if absent
   double length_scale = 1.0;    ///< [m], what a position error is measured by
   double lever = 1.0;           ///< [m], turns lengths into angles
+  double arm = 1.0;             ///< [m], to its farthest joint; the lever where no joint is off it
   bool time_scale_known = true; ///< else taken from the start (no gravity, none given)
   double time_scale = 1.0;      ///< [s], turns lengths into velocities
   double scale_mass = 1.0;      ///< [kg], its own, or without one the largest of its group

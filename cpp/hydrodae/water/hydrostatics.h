@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "hydrodae/element/linear_wrench.h"
 
@@ -17,6 +18,40 @@ struct Hydrostatics {
   element::LinearWrench wrench;
 
   const element::LinearWrench& law() const { return wrench; }
+};
+
+/// The same for bodies at any yaw. Still water feels of a pose the height and the tilt alone:
+///
+///   E = 1/2 x.K x - W0.x,   x = (z - z_ref, tau_x, tau_y)
+///
+/// tau = f (g_y, -g_x) is the shortest rotation vector that tilts the upright body, along axes that
+/// follow its yaw [rad]; g = R^T e_z, f = beta / sin beta, cos beta = g_z. The load is
+/// F_z = -dE/dz, and the moment g x dE/dg in body axes. Gradient and energy are exact at any pose
+/// but the capsized one, beta = pi.
+class YawHydrostatics final : public element::Elements {
+public:
+  YawHydrostatics();
+  /// @param wrench  in the axes of the database; its rows of heave, roll and pitch count
+  /// @param height  z_ref [m]
+  void add(const std::string& name, const element::LinearWrench& wrench, double height);
+
+  void evaluate(double, const double* in, const double*, double* out) const override;
+  void evaluate(double, const Dual* in, const double*, Dual* out) const override;
+  void jacobian(double, const double* in, const double*, double* jacobian) const override;
+  void energy(const double* in, const double*, double* joules) const override;
+  void observe(double, const double*, const double*, const double*, double*) const override {}
+  bool lost_at_rest(std::size_t) const override { return false; }
+
+private:
+  struct Law {
+    Matrix3 stiffness; ///< K
+    Vector3 constant;  ///< W0
+    double height;     ///< z_ref
+  };
+  template <class S> static Vec6<S> load(const Law& law, const S& z, const Vec3<S>& g);
+  template <class S> void each(const S* in, S* out) const;
+
+  std::vector<Law> laws_;
 };
 
 } // namespace hydrodae::water

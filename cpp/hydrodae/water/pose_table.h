@@ -2,7 +2,7 @@
 /// Added mass and radiation of a body that change with one coordinate s of its pose, from tables
 /// for several poses.
 ///
-///   A(s) = sum_m w_m(s) A_m,   B(s) and C(s) z alike
+///   A(s) = sum_m w_m(s) A_m,   B(s) alike, C(s) z too where the memory is blended
 ///
 /// The kinetic energy 1/2 U.A(s) U of the fluid takes from the body
 ///   d/dt (A(s) U) - 1/2 U.A'(s) U grad s

@@ -47,7 +47,8 @@ class Case:
     text : str or None
         Case file as text; None to read the file at `path`.
     path : path or None
-        Case file; used when `text` is None.
+        Case file; used when `text` is None. A pipe, such as /dev/stdin, is read once; `directory`
+        then counts.
     directory : path
         What relative paths in `text` refer to.
     values : mapping from str, optional
@@ -81,6 +82,8 @@ class Case:
     ) -> None:
         if (text is None) == (path is None):
             raise TypeError("a case needs either a text or a path")
+        if path is not None and Path(path).is_fifo():  # which is read once only
+            text, path = _read_pipe(Path(path)), None
         self._text = text
         self._path = None if path is None else Path(path)
         self._directory = Path(directory)
@@ -255,6 +258,13 @@ def _refuse_other_kind(path: Path) -> None:
         raise CaseError(f"is a {outputs.kind_of(path)}; a case is a TOML file", file=str(path))
     if head.startswith((b"\xff\xfe", b"\xfe\xff")):
         raise CaseError("is text in UTF-16; save the case as UTF-8", file=str(path))
+
+
+def _read_pipe(path: Path) -> str:
+    try:
+        return path.read_bytes().decode("utf-8")
+    except UnicodeDecodeError:
+        raise CaseError("is no text in UTF-8; a case is a TOML file", file=str(path)) from None
 
 
 class MakesCase(Protocol):

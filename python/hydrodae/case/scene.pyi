@@ -26,6 +26,10 @@ _PoseTableCoordinate = Literal[
     "pitch",
     "yaw",
 ]
+_PoseTableMemory = Literal[
+    "rest",
+    "blended",
+]
 _SeaPhase = Literal[
     "fixed",
     "moving",
@@ -2096,6 +2100,8 @@ class ForceTypes(TypedList):
         stiffness: _Numbers,
         body_a: str = ...,
         loads: _Numbers = ...,
+        dry_weight: _Numbers = ...,
+        dry_loads: _Numbers = ...,
         pretension: float = ...,
         seabed: bool = ...,
         friction: float = ...,
@@ -2126,6 +2132,12 @@ class ForceTypes(TypedList):
             Axial stiffnesses EA of the parts. Allowed: > 0.
         loads : list of numbers, N, optional
             Weights in water of what hangs between the parts: clumps; negative: buoys.
+        dry_weight : list of numbers, N/m, optional
+            Weights out of the water per unstretched length of the parts. Default: as in water,
+            zero where they float. Allowed: >= 0.
+        dry_loads : list of numbers, N, optional
+            Weights out of the water of what hangs between the parts, spheres at the surface.
+            Default: as in water, zero where they float.
         pretension : number, N, optional
             Tension at B in the reference pose; the length of the first part follows from it.
             Allowed: > 0.
@@ -3031,6 +3043,7 @@ class Scene(SceneBase):
         databases: str | Sequence[str],
         values: _Numbers = ...,
         values_deg: _Numbers = ...,
+        memory: _PoseTableMemory = ...,
     ) -> str:
         """Add `[[pose_table]]`.
 
@@ -3053,6 +3066,10 @@ class Scene(SceneBase):
         databases : text or list of texts
             Paths of the databases, one for each value, relative to the case file. Each is about
             the centre of gravity where it then is.
+        memory : text, default "rest"
+            Radiation memory of radiation = "exponential": that of the database in [hydro],
+            passive at any pose (rest), or those of all poses, each multiplied by its weight
+            (blended). Allowed: rest, blended.
 
         Returns
         -------
@@ -3156,7 +3173,8 @@ class Scene(SceneBase):
             Name of this body in the hydrodynamic database; without it the body is dry.
         volume : number, m3, optional
             Volume of a body without `hydro` that is and stays under water: it has the buoyancy
-            rho g V. Allowed: > 0.
+            rho g V. That of a point (motion) is a sphere, whose buoyancy ends at z = 0.
+            Allowed: > 0.
         center_of_buoyancy : 3 numbers, m, optional
             Centre of that volume in the reference pose, world axes; default: the centre of
             gravity.
@@ -3197,6 +3215,7 @@ class Scene(SceneBase):
         mass: float,
         stiffness: float = ...,
         damping: float = ...,
+        participation: _Numbers = ...,
         hydro: str = ...,
         initial: ModeInitial = ...,
     ) -> str:
@@ -3218,6 +3237,10 @@ class Scene(SceneBase):
             Allowed: >= 0.
         damping : number, N s/m, default 0
             Modal damping of the structure. Allowed: >= 0.
+        participation : 3 numbers, kg, optional
+            Participation factors of finite-element programs: the shape, summed over the mass of
+            the body, along its axes. By these the weight loads the mode. Default: zero, as of
+            normal modes of a free body.
         hydro : text, optional
             Name of this mode in the hydrodynamic database, without the body; default: the name.
         initial : dict, optional
@@ -3472,7 +3495,8 @@ class Scene(SceneBase):
             End of the run. Allowed: > 0.
         rtol : number, default 1e-06
             Local error tolerance relative to the scales of the scene (see length_scale,
-            time_scale). Allowed: 1e-13 to 0.1.
+            time_scale); with a fixed step it bounds Newton iterations and events only. Allowed:
+            1e-13 to 0.1.
         step : number, s, default 0
             Fixed step; 0: the method chooses. Needed by gauss, lobatto_iiic and
             generalized_alpha. Allowed: >= 0.

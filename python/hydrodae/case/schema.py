@@ -23,6 +23,11 @@ def case_schema() -> Schema:
         "type": "object",
         "properties": {
             "title": {"type": "string", "description": "Title of the case."},
+            "missing": {
+                "type": "array",
+                "items": {"type": "string"},
+                "description": "Parts of the modelled device that the case lacks; each is a note.",
+            },
             **{table.name: _table_schema(table) for table in tables()},
         },
         "required": [table.name for table in tables() if table.required],

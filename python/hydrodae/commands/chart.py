@@ -6,9 +6,6 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from rich.console import Console
-
-from hydrodae.commands.arguments import given_case
 from hydrodae.commands.options import add_case
 from hydrodae.errors import CaseError
 
@@ -17,6 +14,9 @@ DONE = 0
 
 def run_chart(arguments: argparse.Namespace) -> int:
     """Make a chart, print its table, write picture and JSON."""
+    from rich.console import Console
+
+    from hydrodae.commands.arguments import given_case
     from hydrodae.pictures.plot import save
     from hydrodae.study.chart import chart, output
     from hydrodae.support.progress import ProgressLine
@@ -42,6 +42,7 @@ def run_chart(arguments: argparse.Namespace) -> int:
 
 def run_recommend(arguments: argparse.Namespace) -> int:
     """Print the cheapest setting that meets an error, as lines of a case."""
+    from hydrodae.commands.arguments import given_case
     from hydrodae.study.chart import Run, recommend
     from hydrodae.support.progress import ProgressLine
 

@@ -1,7 +1,7 @@
 """The command `hydrodae`: run a case, draw results, prepare hydrodynamic databases.
 
 Exit codes: 0 done, 2 bad case, model or argument, 3 solver failure (partial results kept),
-4 interrupted (likewise).
+4 interrupted (likewise), 5 not known to be reproducible (run --strict).
 """
 
 from __future__ import annotations
@@ -9,11 +9,14 @@ from __future__ import annotations
 import argparse
 import os
 import platform
+import signal
 import sys
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from importlib import import_module
+from threading import current_thread, main_thread
+from types import FrameType
 from typing import Any, TextIO
 
 from hydrodae.commands import (
@@ -32,11 +35,17 @@ from hydrodae.commands import (
     schema,
 )
 from hydrodae.commands.examples import add_examples
-from hydrodae.errors import HydrodaeError, RunInterrupted, SolverError
-from hydrodae.results import ResultsWarning
+from hydrodae.errors import (
+    HydrodaeError,
+    NotReproducible,
+    ResultsWarning,
+    RunInterrupted,
+    RunWarning,
+    SolverError,
+)
 from hydrodae.support.version import version
 
-DONE, BAD_CASE, SOLVER_FAILURE, INTERRUPTED = 0, 2, 3, 4
+DONE, BAD_CASE, SOLVER_FAILURE, INTERRUPTED, NOT_REPRODUCIBLE = 0, 2, 3, 4, 5
 
 #: In place of a command: all arguments of all commands.
 ALL = ["*"]
@@ -64,13 +73,15 @@ def guarded(work: Callable[[], int | None]) -> int:
         Returns an exit code, or None for 0.
     """
     try:
-        with _plain_warnings():
+        with _plain_warnings(), _terminated_as_interrupted():
             code = work()
         _flush()
     except SolverError as error:
         return _complain(error, SOLVER_FAILURE)
     except (RunInterrupted, KeyboardInterrupt) as error:
         return _complain(error, INTERRUPTED)
+    except NotReproducible as error:
+        return _complain(error, NOT_REPRODUCIBLE)
     except BrokenPipeError:  # whoever read our output has gone, as in `hydrodae ... | head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return DONE
@@ -96,6 +107,23 @@ def _give_up_full_output() -> None:
 
 
 @contextmanager
+def _terminated_as_interrupted() -> Iterator[None]:
+    """Let SIGTERM end the command as Ctrl-C does, so that temporary folders are removed."""
+    if current_thread() is not main_thread():  # only the main thread may set handlers
+        yield
+        return
+
+    def interrupt(_signal: int, _frame: FrameType | None) -> None:
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGTERM, interrupt)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+@contextmanager
 def _plain_warnings() -> Iterator[None]:
     """Each warning is one line for people, once, without a place in the source."""
     with warnings.catch_warnings():
@@ -116,6 +144,7 @@ def _plain_warnings() -> Iterator[None]:
                 print(text, file=sys.stderr)
 
         warnings.simplefilter("always", ResultsWarning)
+        warnings.simplefilter("ignore", RunWarning)  # summaries and reports show it
         warnings.showwarning = show
         yield
 
@@ -125,8 +154,8 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="hydrodae",
         description="Simulate wave energy converters with awkward mechanisms.",
-        epilog="Exit codes: 0 done, 2 bad case or argument, 3 solver failure, 4 interrupted, 5 not "
-        "reproducible (run --strict).",
+        epilog="Exit codes: 0 done, 2 bad case or argument, 3 solver failure, 4 interrupted "
+        "(Ctrl-C, SIGTERM), 5 not reproducible, or without an estimate (run --strict).",
     )
     parser.add_argument(
         "--version", action=_PrintVersion, nargs=0, help="print the versions and exit"

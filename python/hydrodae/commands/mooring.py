@@ -65,7 +65,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.output is None:
         print(text, end="")
     else:
-        Path(arguments.output).write_text(text, encoding="utf-8")
+        outputs.write_text(Path(arguments.output), text)
         print(f"written: {arguments.output}")
     return 0
 

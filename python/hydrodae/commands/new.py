@@ -37,6 +37,14 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         nargs=2,
         help="wecsim and the folder with wecSimInputFile.m and its Simulink model",
     )
+    parser.add_argument(
+        "--accept",
+        metavar="PART",
+        action="append",
+        default=[],
+        help="with --from: write the case although it lacks this part of the device, such as "
+        "waves, pto, joint, mooring or cable. May be repeated",
+    )
     parser.set_defaults(call=run)
 
 
@@ -44,6 +52,8 @@ def run(arguments: argparse.Namespace) -> int:
     """Write a starter, or what a run of WEC-Sim is here, or list the kinds; returns 0."""
     if arguments.origin is not None:
         return _convert(arguments)
+    if arguments.accept:
+        raise CaseError("--accept is for --from")
     from hydrodae.starters import KINDS, create
 
     if arguments.kind is None:
@@ -71,7 +81,7 @@ def _convert(arguments: argparse.Namespace) -> int:
         raise CaseError(f"hydrodae new FOLDER --from {program} {path}: one folder is needed")
     from hydrodae.wecsim import convert
 
-    converted = convert(path, arguments.kind)
+    converted = convert(path, arguments.kind, accept=arguments.accept)
     _print_remarks(converted)
     _tell(converted.case)
     return 0

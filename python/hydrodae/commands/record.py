@@ -75,11 +75,17 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _kind_of(table: Table) -> str:
     from hydrodae.records.quantities import find
+    from hydrodae.records.units import is_density
 
     if find(table, "phase") is not None:
         return "components"
-    if find(table, "time") is None or find(table, "density") is not None:
+    timed, density = find(table, "time") is not None, find(table, "density")
+    if not timed or density is not None:
         if find(table, "frequency") is not None or find(table, "omega") is not None:
+            return "spectrum"
+    # "T" is a period and a time: the unit of the density decides.
+    if density is not None and find(table, "period") is not None:
+        if not timed or is_density(table.names[density]):
             return "spectrum"
     if not table.named and not (table.values[:, -1] < 0.0).any():
         raise CaseError(

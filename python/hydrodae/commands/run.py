@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING
 from hydrodae.commands.options import add_case, add_json, add_quiet
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
+    from hydrodae.case import Case
     from hydrodae.results import Results
 
 #: Endings of files that are no results.
@@ -38,7 +41,8 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser.add_argument(
         "--strict",
         action="store_true",
-        help="exit with 5 where the motion of a body or line is not reproducible to the end",
+        help="exit with 5 where the motion of a body or line is not reproducible to the end, or no "
+        "estimate of the error reaches the end",
     )
     parser.add_argument(
         "--checkpoint",
@@ -70,11 +74,12 @@ def _seconds(text: str) -> float:
 
 def run(arguments: argparse.Namespace) -> int:
     """Simulate a case and print the summary; returns 0."""
+    from contextlib import nullcontext
     from pathlib import Path
 
     from hydrodae.commands.arguments import given_case
     from hydrodae.commands.machine import of_run, print_json
-    from hydrodae.errors import CaseError
+    from hydrodae.errors import CaseError, NotReproducible
     from hydrodae.simulation import simulate
     from hydrodae.support.progress import ProgressLine
 
@@ -84,6 +89,10 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.force:
         values["solver.force"] = True
     case = given_case(arguments, values)
+    if arguments.output is None and case.path is None:
+        raise CaseError(
+            f"{arguments.case}: a case from a pipe has no name for results: give -o FILE"
+        )
     output = Path(arguments.output or Path(arguments.case).with_suffix(".h5"))
     if output.suffix.lower() in PICTURES:
         file = output.with_suffix(".h5")
@@ -91,22 +100,26 @@ def run(arguments: argparse.Namespace) -> int:
             f"-o {output}: the results of a run are HDF5, not a picture; write -o {file}, "
             f"then hydrodae plot {file} -o {output}"
         )
-    how = {name: getattr(arguments, name) for name in ("verify", "checkpoint", "resume")}
-    if arguments.quiet or arguments.json:
-        results = simulate.run(case, output, **how)
-        if arguments.json:
-            print_json(of_run(results))
-        return _exit_code(results, arguments.strict)
-    with ProgressLine(case.title) as progress:
-        results = simulate.run(case, output, progress=progress, **how)
+    options = ("verify", "checkpoint", "resume", "strict")
+    how = {name: getattr(arguments, name) for name in options}
+    silent = arguments.quiet or arguments.json
+    unknown = None
+    try:
+        with nullcontext() if silent else ProgressLine(case.title) as progress:
+            results = simulate.run(case, output, progress=progress, **how)
+    except NotReproducible as error:
+        results, unknown = error.results, error
+    if arguments.json:
+        print_json(of_run(results))
+    elif not silent:
+        _print_summary(results, case, output)
+    if unknown is not None:
+        raise unknown
+    return 0
+
+
+def _print_summary(results: Results, case: Case, output: Path) -> None:
     print(results.summary())
     if case.unsampled:
         print(f"  note: {case.unsampled}")
     print(f"  results in {output}")
-    return _exit_code(results, arguments.strict)
-
-
-def _exit_code(results: Results, strict: bool) -> int:
-    """5 where `strict` is set and a motion is not reproducible, else 0."""
-    lost = [name for name, error in results.accuracy().items() if not error.reproducible]
-    return 5 if strict and lost else 0

@@ -6,7 +6,6 @@ import hashlib
 import os
 import platform
 import re
-import tomllib
 import zipfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -14,7 +13,7 @@ from typing import Any
 
 from hydrodae.case import Case
 from hydrodae.case.case import CaseLike, read_case, to_toml
-from hydrodae.case.contents import case_tables, tables_of
+from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError
 from hydrodae.fmu.description import Description, model_description, start_text, type_of
 from hydrodae.fmu.variables import PARAMETER, Variable, choose, number_at
@@ -73,7 +72,8 @@ def export(
     files, values = _files(read)
     text = read.text
     content = _variables_text({**read.overrides, **values}, chosen)
-    token = hashlib.sha256("\n".join([text, content, _hashes(files)]).encode()).hexdigest()
+    files_text = read.scene.text_of_files
+    token = hashlib.sha256("\n".join([text, content, files_text]).encode()).hexdigest()
     identifier = re.sub(r"\W|^(?=\d)", "_", Path(path).stem, flags=re.ASCII)
     told = Description(identifier, read.title, token, read.end_time, _step(read), chosen)
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
@@ -130,28 +130,14 @@ def _libraries(identifier: str) -> dict[str, bytes]:
 
 def _files(case: Case) -> tuple[dict[str, Path], dict[str, str]]:
     """Files that the case reads, by their name in the FMU, and the keys that name them as TOML."""
-    root = tables_of(case.text)
-    keys = {"hydro.database": root.get("hydro", {}).get("database")}
-    for kind, key in (("wave", "file"), ("body", "mesh"), ("pose_table", "databases")):
-        for entry in root.get(kind, []):
-            keys[f"{kind}.{entry['name']}.{key}"] = entry.get(key)
     files: dict[str, Path] = {}
-    values: dict[str, str] = {}
-    for key, found in keys.items():
-        if key in case.overrides:
-            found = tomllib.loads(f"value = {case.overrides[key]}")["value"]
-        if found is None:
-            continue
-        names = []
-        for path in found if isinstance(found, list) else [found]:
-            names.append(f"{len(files)}_{Path(path).name}")
-            files[names[-1]] = case.directory / path
-        values[key] = to_toml(names if isinstance(found, list) else names[0])
-    return files, values
-
-
-def _hashes(files: Mapping[str, Path]) -> str:
-    return "\n".join(hashlib.sha256(file.read_bytes()).hexdigest() for file in files.values())
+    names: dict[str, list[str]] = {}
+    for key, _, path, _ in case.scene.files:
+        name = f"{len(files)}_{Path(path).name}"
+        files[name] = Path(path)
+        names.setdefault(key, []).append(name)
+    lists = {key for key in names if key.endswith(".databases")}
+    return files, {key: to_toml(own if key in lists else own[0]) for key, own in names.items()}
 
 
 def _variables_text(values: Mapping[str, str], variables: Sequence[Variable]) -> str:

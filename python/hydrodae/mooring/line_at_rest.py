@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -24,7 +25,7 @@ class Catenary:
     on_seabed : float
         Unstretched length that lies on the seabed [m].
     stiffness : array (2, 2)
-        d(horizontal, vertical) / d(x, z) [N/m].
+        d(horizontal, vertical) / d(x, z) of the fairlead [N/m].
     out_of_plane : float
         Stiffness across the plane of the line, horizontal / x [N/m].
     s, x, z, tension_along : array (n,)
@@ -60,6 +61,9 @@ def catenary(
     stiffness: float | Sequence[float],
     *,
     loads: Sequence[float] = (),
+    dry_weight: float | Sequence[float] | None = None,
+    dry_loads: Sequence[float] = (),
+    surface: float = math.inf,
     seabed: bool = True,
     friction: float = 0.0,
     n: int = 101,
@@ -75,6 +79,11 @@ def catenary(
         [N] of each part, from the anchor up.
     loads : sequence, optional
         Weights in water of what hangs between the parts [N]; negative: buoys.
+    dry_weight, dry_loads : float or sequence, optional
+        Weights out of the water of the parts [N/m], and of what hangs between them [N], which are
+        spheres at the surface. By default as in water, zero where they float.
+    surface : float
+        Height of the surface of the water over the anchor [m]; by default all is deep in the water.
     seabed : bool
         Whether a flat seabed at the height of the anchor carries the line.
     friction : float
@@ -92,12 +101,24 @@ def catenary(
     Closed forms of Irvine, Cable Structures (1981), with seabed friction after Jonkman,
     NREL/TP-500-41958 (2007).
     """
-    parts = [
-        np.atleast_1d(np.asarray(v, dtype=float)).tolist() for v in (length, weight, stiffness)
-    ]
-    s = np.linspace(0.0, float(np.sum(parts[0])), n)
+    lengths, weights, stiffnesses, dry = (
+        np.atleast_1d(np.asarray(v, dtype=float)).tolist()
+        for v in (length, weight, stiffness, () if dry_weight is None else dry_weight)
+    )
+    s = np.linspace(0.0, sum(lengths), n)
     held, shape = _core.catenary(
-        x, z, parts[0], parts[1], parts[2], list(loads), seabed, friction, s.tolist()
+        x,
+        z,
+        lengths,
+        weights,
+        stiffnesses,
+        list(loads),
+        dry,
+        list(dry_loads),
+        surface,
+        seabed,
+        friction,
+        s.tolist(),
     )
     return Catenary(
         horizontal=held.horizontal,

@@ -18,7 +18,7 @@ from hydrodae.mooring.moordyn_lines import CARRIED, is_zero, line_keys, lost_of
 from hydrodae.mooring.moordyn_places import COUPLED, Places, poses
 from hydrodae.support.arrays import Array
 
-_CARRIED = ("g", "rho", "wtrdpth", "frictioncoefficient")
+_CARRIED = ("g", "rho", "wtrdpth")
 
 
 def read_moordyn(
@@ -131,10 +131,9 @@ class _Conversion:
         lowest = -min(fixed, default=0.0)
         return max(depth, lowest), depth < lowest
 
-    def _net_weight(self, point: Point) -> float:
-        """Weight in water less the force that the file gives [N]."""
-        net = point.mass - self.deck.density * point.volume
-        return net * self.deck.gravity - point.force[2]
+    def _net_weight(self, point: Point, density: float) -> float:
+        """Weight in water, or in air of density 0, less the force that the file gives [N]."""
+        return (point.mass - density * point.volume) * self.deck.gravity - point.force[2]
 
     def _chain(self, chain: Chain) -> None:
         deck = self.deck
@@ -142,10 +141,6 @@ class _Conversion:
         label = ("line " if len(chain.lines) == 1 else "lines ") + ", ".join(
             line.id for line in chain.lines
         )
-        if body_a == body_b:
-            why = "two fixed points" if body_a == "ground" else f"two points of body {body_a}"
-            self.out.notes.append(f"{label} between {why}: left out, it moves nothing")
-            return
         if self.dynamic:
             self.out.forces.append(
                 {
@@ -173,16 +168,16 @@ class _Conversion:
             "point_a": a[1].tolist(),
             "point_b": b[1].tolist(),
             "length": [line.length for line in chain.lines],
-            "weight": [self._weight(line) for line in chain.lines],
+            "weight": [self._weight(line, self.deck.density) for line in chain.lines],
+            "dry_weight": [self._weight(line, 0.0) for line in chain.lines],
             "stiffness": [line.type.stiffness for line in chain.lines],
         }
-        loads = [self._net_weight(point) for point in chain.between]
-        if any(loads):
-            table["loads"] = loads
+        for key, density in (("loads", self.deck.density), ("dry_loads", 0.0)):
+            loads = [self._net_weight(point, density) for point in chain.between]
+            if any(loads):
+                table[key] = loads
         if not lies:
             table["seabed"] = False
-        elif friction := self.deck.option("frictioncoefficient", 0.0):
-            table["friction"] = friction
         self._check_at_rest(chain, label, table)
         self.out.forces.append(table)
         for point in chain.between:
@@ -192,7 +187,9 @@ class _Conversion:
         """Refuse what a line at rest cannot do where its ends are, or say how far it hangs."""
         row = chain.lines[0].row
         way = np.subtract(table["point_b"], table["point_a"])
-        keys = {key: table[key] for key in ("loads", "seabed", "friction") if key in table}
+        given = ("loads", "dry_weight", "dry_loads", "seabed")
+        keys = {key: table[key] for key in given if key in table}
+        keys["surface"] = -table["point_a"][2]
         parts = (table["length"], table["weight"], table["stiffness"])
         try:
             line = catenary(float(np.hypot(way[0], way[1])), float(way[2]), *parts, **keys, n=1001)
@@ -213,9 +210,9 @@ class _Conversion:
             f"hangs down to z = {lowest:.4g} m where its ends are"
         )
 
-    def _weight(self, line: Line) -> float:
+    def _weight(self, line: Line, density: float) -> float:
         area = 0.25 * math.pi * line.type.diameter**2
-        return (line.type.mass - self.deck.density * area) * self.deck.gravity
+        return (line.type.mass - density * area) * self.deck.gravity
 
     def _note_between(self, point: Point) -> None:
         lost = [
@@ -242,22 +239,22 @@ class _Conversion:
             if end == point.id
         )
         name = f"point{point.id}"
-        self.out.bodies.append(
-            {
-                "name": name,
-                "motion": "point",
-                "mass": point.mass + lumped,
-                "center_of_gravity": list(point.place),
-            }
-        )
-        up = self.deck.density * point.volume + lumped
-        force = [point.force[0], point.force[1], up * self.deck.gravity + point.force[2]]
+        body: dict[str, Any] = {
+            "name": name,
+            "motion": "point",
+            "mass": point.mass + lumped,
+            "center_of_gravity": list(point.place),
+        }
+        if point.volume:
+            body["volume"] = point.volume
+        self.out.bodies.append(body)
+        force = [point.force[0], point.force[1], lumped * self.deck.gravity + point.force[2]]
         self.out.forces.append(
             {"type": "constant_load", "name": f"{name}_lift", "body": name, "force": force}
         )
         self.out.notes.append(
             f"point {point.id} is body {name}, with {lumped:g} kg of the segments next to it "
-            f"({name}_lift: buoyancy, and their weight, which the lines hold)"
+            f"({name}_lift: their weight, which the lines hold)"
         )
         if not (point.drag_area or point.added_mass * point.volume):
             return
@@ -305,6 +302,12 @@ class _Conversion:
                     f"drag area {point.drag_area:g} m2 left out: they are those of its body"
                 )
         carried = _CARRIED + (CARRIED if self.dynamic else ())
+        if not self.dynamic and deck.option("frictioncoefficient", 0.0):
+            notes.append(
+                f"friction of the seabed {deck.options['frictioncoefficient']}: left out; it acts "
+                "against a velocity in MoorDyn, and is zero at rest"
+            )
+            carried += ("frictioncoefficient",)
         others = [f"{key} {value}" for key, value in deck.options.items() if key not in carried]
         if others:
             notes.append(f"options of dynamic lines, not used: {', '.join(others)}")

@@ -10,7 +10,7 @@ from hydrodae.mooring.moordyn_deck import Deck, Line, Point
 from hydrodae.mooring.moordyn_sections import number
 
 #: Options that these tables hold, beside those of lines at rest.
-CARRIED = ("kbot", "cbot", "wavekin")
+CARRIED = ("kbot", "cbot", "wavekin", "frictioncoefficient")
 #: Keys of a part by the names of MoorDyn.
 _COEFFICIENTS = {
     "drag": "Cd",

@@ -185,7 +185,8 @@ def save(figure: Figure, path: str | os.PathLike[str]) -> Path:
     known = figure.canvas.get_supported_filetypes()
     if path.suffix[1:].lower() not in known:
         raise CaseError(f"{path}: no such kind of picture; known are {', '.join(sorted(known))}")
-    figure.savefig(outputs.claim(path, outputs.PICTURE))
+    with outputs.whole(outputs.claim(path, outputs.PICTURE)) as beside:
+        figure.savefig(beside)
     return path
 
 

@@ -13,6 +13,7 @@ from hydrodae.errors import CaseError
 from hydrodae.records import clock
 from hydrodae.records.quantities import find
 from hydrodae.records.table import Table, read_table
+from hydrodae.records.units import bracketed
 from hydrodae.support import outputs
 from hydrodae.support.arrays import Array
 
@@ -61,7 +62,7 @@ class Elevation:
             raise CaseError(f"{target}: a record for a case needs a name that ends in .csv")
         rows = (f"{t:.9g},{z:.9g}" for t, z in zip(self.time, self.elevation, strict=True))
         text = "time [s],elevation [m]\n" + "\n".join(rows) + "\n"
-        outputs.claim(target, outputs.CSV).write_text(text, encoding="utf-8")
+        outputs.write_text(outputs.claim(target, outputs.CSV), text)
         return target
 
 
@@ -107,9 +108,14 @@ def read_elevation(
         t, taken = np.arange(len(table.values)) / rate, -1
     else:
         t, taken = _time(table, time)
-    values, unit = table.column(column or _elevation(table, taken))
+    asked = column or _elevation(table, taken)
+    values, unit = table.column(asked)
+    unit = unit or bracketed(table.names[table.index(asked)])
     if unit not in ("", "m"):
-        raise CaseError(f"{where}: the elevation is in {unit}; expected a unit of length")
+        raise CaseError(
+            f"{where}: column {asked!r} is in {unit}; expected a unit of length for the elevation, "
+            f'such as --column "{asked}:m"'
+        )
     t, values, notes = clock.even(where, t, values)
     if len(t) < FEWEST:
         raise CaseError(f"{where}: {len(t)} samples; at least {FEWEST} are needed")

@@ -12,6 +12,7 @@ import numpy as np
 
 from hydrodae.errors import CaseError
 from hydrodae.records.columns import Columns, numbered
+from hydrodae.records.mat_elements import check
 
 #: Fewest numbers that are a column; shorter ones are settings.
 _FEWEST = 4
@@ -26,17 +27,28 @@ def read_matlab(path: Path) -> Columns:
     CaseError
         It cannot be read, or holds no vectors or matrices of numbers.
     """
+    arrays: dict[str, np.ndarray] = {}
+    _gather(load(path), "", arrays)
+    return _table(path, arrays)
+
+
+def load(path: Path) -> dict[str, Any]:
+    """Variables of a .mat file of version 4 to 7; structures are dicts.
+
+    Raises
+    ------
+    CaseError
+        It cannot be read.
+    """
     from scipy.io import loadmat
 
     try:
-        found = loadmat(path, simplify_cells=True)
+        check(path.read_bytes())
+        return dict(loadmat(path, simplify_cells=True))
     except MemoryError:
-        raise
+        raise CaseError(f"{path}: its arrays are larger than the memory") from None
     except Exception as error:  # of a damaged file, scipy raises whatever its bytes lead to
         raise CaseError(f"{path}: is no .mat file that can be read: {error}") from None
-    arrays: dict[str, np.ndarray] = {}
-    _gather(found, "", arrays)
-    return _table(path, arrays)
 
 
 def read_hdf5(path: Path) -> Columns:

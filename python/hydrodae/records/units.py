@@ -53,6 +53,12 @@ def bracketed(name: str) -> str:
     return found[1].strip() if found else ""
 
 
+def is_density(name: str) -> bool:
+    """Whether the name of a column states the unit of a spectral density, such as [m2/Hz]."""
+    unit = bracketed(name).replace("^", "").replace("²", "2")
+    return unit.startswith(("m2", "cm2", "mm2"))
+
+
 def bare(name: str) -> str:
     """Name of a column without its unit, in small letters, words apart by one space."""
     return " ".join(_BRACKETS.sub("", name).replace("_", " ").lower().split())

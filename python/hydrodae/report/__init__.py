@@ -37,7 +37,7 @@ def report(source: str | os.PathLike[str], output: str | os.PathLike[str] | None
         raise ResultsError(f"{target}: a report needs a name that ends in .html")
     outputs.claim(target, outputs.PAGE)
     text = _page(path)
-    target.write_text(text, encoding="utf-8")
+    outputs.write_text(target, text)
     return target
 
 

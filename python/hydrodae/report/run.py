@@ -65,23 +65,26 @@ def _notes(results: Results) -> str:
 
 
 def _checks(results: Results) -> str:
-    """What `hydrodae check` says, if the case can be read again with the same database."""
+    """What `hydrodae check` says, if the case can be read again with the same inputs."""
+    from hydrodae import _core
+
     overrides = str(results.header.get("case_overrides", "")).splitlines()
     values = dict(parse_assignment(line) for line in overrides)
-    reason = "no database"
+    reason = "its folder is unknown"
     for folder in (Path(str(results.header.get("case_path", ""))).parent, results.path.parent):
         try:
             case = Case.from_text(results.case_text, folder).with_values(values)
-            if _digest(case.scene.database_path) == str(results.header.get("hydro_sha256", "")):
+            before = str(results.header.get("input_files", ""))
+            if not (changed := _core.changed_file(before, case.scene.text_of_files)):
                 return case.examine()
-            reason = "the database is not the one of the run"
+            reason = f"the inputs are not those of the run: {changed}"
         except (HydrodaeError, OSError) as error:
             reason = str(error).splitlines()[0]
     return f"not made: {reason}"
 
 
 def _digest(path: str) -> str:
-    return hashlib.sha256(Path(path).read_bytes()).hexdigest() if path else ""
+    return hashlib.sha256(Path(path).read_bytes()).hexdigest()
 
 
 def _since(results: Results) -> str:
@@ -142,4 +145,5 @@ def _provenance(results: Results) -> Iterator[tuple[str, str]]:
     yield "sha256 of its text", hashlib.sha256(results.case_text.encode()).hexdigest()
     yield "values replaced", str(header.get("case_overrides", "")).strip() or "none"
     yield "sha256 of the database", str(header.get("hydro_sha256", "")) or "none"
+    yield "sha256 of all inputs", str(header.get("input_files", "")).strip() or "none"
     yield "report by", f"hydrodae {version()}, Python {platform.python_version()}"

@@ -6,7 +6,8 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
-from hydrodae.results.files import ChannelError, ResultsError, ResultsWarning, partial_path
+from hydrodae.errors import ResultsWarning
+from hydrodae.results.files import ChannelError, ResultsError, partial_path
 from hydrodae.results.recording import Recording
 from hydrodae.results.series import Statistics, statistics
 from hydrodae.results.summary import summary
@@ -42,6 +43,9 @@ class Results(Recording):
         Results file.
     owner : object, optional
         Kept alive as long as the results are (the temporary folder of a run without output).
+    sound : bool
+        The file is known to be sound, as one that this process has written: it is not searched
+        for damage that the HDF5 library would read for ever.
 
     Raises
     ------

@@ -10,7 +10,7 @@ from typing import Any
 import h5py
 import numpy as np
 
-from hydrodae.errors import HydrodaeError
+from hydrodae.errors import HydrodaeError, ResultsWarning
 from hydrodae.support.arrays import Array
 
 
@@ -22,10 +22,6 @@ class ChannelError(ResultsError, KeyError):
     """There is no channel of that name; the message has the nearest one."""
 
     __str__ = Exception.__str__  # KeyError would show the message in quotes
-
-
-class ResultsWarning(UserWarning):
-    """The results that are read are not those of the last run, or not all of them."""
 
 
 def partial_path(path: str | os.PathLike[str]) -> Path:

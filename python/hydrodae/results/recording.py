@@ -47,9 +47,10 @@ class MotionError:
     Attributes
     ----------
     time : (nt,) array
-        Samples that both runs reached, s.
+        Samples that both runs reached, s. Runs of more than 16384 samples have the first sample
+        of each span.
     error : (nt,) array
-        Displacement, or turn times the lever of the body, m.
+        Displacement, or turn times the lever of the body, m; the largest of each span.
     relative : (nt,) array
         The same as a part of `motion`.
     motion : float
@@ -73,13 +74,64 @@ class MotionError:
         return bool(np.isinf(self.reproducible_until))
 
 
+@dataclass(frozen=True)
+class Channel:
+    """Samples of a channel, as the file has them.
+
+    Attributes
+    ----------
+    name : str
+        Path of the channel in the file.
+    values : (nt,) or (nt, n) array
+        Samples; n: x, y, z of a vector, w, x, y, z of a quaternion, or numbers along a line.
+    attributes : dict
+        `unit`, `frame` and `description`.
+    """
+
+    name: str
+    values: Array
+    attributes: dict[str, Any]
+
+    @property
+    def unit(self) -> str:
+        """Unit of the samples; empty where the file has none."""
+        return str(self.attributes.get("unit", ""))
+
+    @property
+    def components(self) -> list[str]:
+        """Names of the columns of a vector or quaternion; none of another channel."""
+        return self._dimension[1] if self.values.ndim == 2 else []
+
+    @property
+    def _dimension(self) -> tuple[str, list[str]]:
+        width = self.values.shape[1]
+        return _COMPONENTS.get(width, (f"along_{width}", []))
+
+    def labelled(self, time: xarray.Variable) -> xarray.DataArray:
+        """Return the samples with their times and the names of their components."""
+        import xarray
+
+        dims: list[str] = ["time"]
+        coords: dict[str, Any] = {"time": time}
+        if self.values.ndim == 2:
+            dimension, labels = self._dimension
+            dims.append(dimension)
+            if labels:
+                coords[dimension] = labels
+        return xarray.DataArray(self.values, coords, dims, name=self.name, attrs=self.attributes)
+
+
 class Recording(Mapping[str, "xarray.DataArray"]):
     """Header and channels of a results file, each read when it is first asked for."""
 
-    def __init__(self, path: str | os.PathLike[str], owner: object = None) -> None:
+    def __init__(
+        self, path: str | os.PathLike[str], owner: object = None, *, sound: bool = False
+    ) -> None:
         self.path = find(Path(path))
         self._owner = owner
-        self._read: dict[str, xarray.DataArray] = {}
+        self._read: dict[str, Channel] = {}
+        self._labelled: dict[str, xarray.DataArray] = {}
+        self._accuracy: dict[str, MotionError] | None = None
         if not self.path.is_file():
             what = (
                 "is a folder; name a results file" if self.path.is_dir() else "no such results file"
@@ -89,7 +141,9 @@ class Recording(Mapping[str, "xarray.DataArray"]):
             raise ResultsError(
                 f"{self.path}: is a case, or a study, and no results file: run it first"
             )
-        with opened(self.path, _unreadable, "not a readable results file", search=True) as file:
+        with opened(
+            self.path, _unreadable, "not a readable results file", search=not sound
+        ) as file:
             self._read_header(file)
         self._identity = identity(self.path)
 
@@ -114,37 +168,39 @@ class Recording(Mapping[str, "xarray.DataArray"]):
         solver = file.get("solver")
         attributes = {} if solver is None else solver.attrs
         self._statistics = {name_of(key): plain(value) for key, value in attributes.items()}
-        lengths: dict[str, int] = {}
-        impacts: list[str] = []
-        errors: list[str] = []
+        names: list[str] = []
 
-        def note(name: str | bytes, node: h5py.Group | h5py.Dataset) -> None:
-            if not isinstance(name, str):
-                raise TypeError(f"the name {name!r} is no text")
-            if isinstance(node, h5py.Dataset) and name not in _LABELS:
-                if name.startswith(_IMPACTS):
-                    impacts.append(name.removeprefix(_IMPACTS))
-                elif name.startswith(_ACCURACY):
-                    errors.append(name.removeprefix(_ACCURACY))
-                else:
-                    lengths[name] = len(node) if node.ndim else 0
+        def note(name: bytes, node: h5py.h5o.ObjInfo) -> None:
+            try:
+                text = name.decode()
+            except UnicodeDecodeError:
+                raise TypeError(f"the name {name!r} is no text") from None
+            if node.type == h5py.h5o.TYPE_DATASET:
+                names.append(text)
 
-        file.visititems(note)
-        if "time" not in lengths or file["time"].ndim != 1:
+        h5py.h5o.visit(file.id, note, info=True)  # without an object of h5py for each
+        self._impacts, self._errors = (
+            tuple(name.removeprefix(group) for name in names if name.startswith(group))
+            for group in (_IMPACTS, _ACCURACY)
+        )
+        channels = [
+            name
+            for name in names
+            if name not in _LABELS and not name.startswith((_IMPACTS, _ACCURACY))
+        ]
+        if "time" not in channels or file["time"].ndim != 1:
             raise ResultsError(f"{self.path}: damaged: it has no list of times")
-        # A run that was killed may have died between two channels: keep the samples that all have.
-        samples = min(lengths.values()) if self.status == "running" else lengths["time"]
+        samples = len(file["time"])
+        if self.status == "running":
+            # A killed run may have died between two channels: keep the samples that all have.
+            samples = min(len(file[name]) if file[name].ndim else 0 for name in channels)
         self._time: Array = real(file["time"][:samples])
-        self._names = tuple(name for name in lengths if name != "time")
-        self._impacts = tuple(impacts)
-        self._errors = tuple(errors)
+        self._names = tuple(name for name in channels if name != "time")
 
     def __getitem__(self, name: str) -> xarray.DataArray:
-        if name not in self._read:
-            if name not in self._names:
-                raise self.missing(name)
-            self._read[name] = self._load(name)
-        return self._read[name]
+        if name not in self._labelled:
+            self._labelled[name] = self.channel(name).labelled(self._time_coordinate())
+        return self._labelled[name]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._names)
@@ -201,6 +257,21 @@ class Recording(Mapping[str, "xarray.DataArray"]):
         """
         import xarray
 
+        return {
+            name: xarray.Dataset(
+                {key: ("impact", column, {"unit": unit}) for key, (column, unit) in table.items()}
+            )
+            for name, table in self.impact_tables().items()
+        }
+
+    def impact_tables(self) -> dict[str, dict[str, tuple[Array, str]]]:
+        """Return values and unit of each column of `impacts`, without labels.
+
+        Raises
+        ------
+        ResultsError
+            The tables are damaged.
+        """
         tables = {}
         for name in self._impacts:
             with opened(self.path, _unreadable, f"impacts on {name} are damaged") as file:
@@ -209,10 +280,8 @@ class Recording(Mapping[str, "xarray.DataArray"]):
             if values.ndim != 2 or values.shape[1] not in (3, 4) or len(units) != values.shape[1]:
                 raise ResultsError(f"{self.path}: impacts on {name} are damaged")
             keys = ("time", "impulse", "energy_lost", "peak_force")
-            columns = zip(keys, values.T, units, strict=False)
-            tables[name] = xarray.Dataset(
-                {key: ("impact", column, {"unit": unit}) for key, column, unit in columns}
-            )
+            columns = zip(values.T, units, strict=True)
+            tables[name] = dict(zip(keys, columns, strict=False))
         return tables
 
     def accuracy(self) -> dict[str, MotionError]:
@@ -226,23 +295,53 @@ class Recording(Mapping[str, "xarray.DataArray"]):
         ResultsError
             The tables are damaged.
         """
-        found = {}
-        for name in self._errors:
-            with opened(self.path, _unreadable, f"accuracy of {name} is damaged") as file:
-                values = real(file[_ACCURACY + name][:])
-                attributes = {k: plain(v) for k, v in file[_ACCURACY + name].attrs.items()}
-            if values.ndim != 2 or values.shape[1] != 3:
-                raise ResultsError(f"{self.path}: accuracy of {name} is damaged")
-            time, error, relative = values.T
-            found[name] = MotionError(
-                time,
-                error,
-                relative,
-                motion=float(attributes["motion"]),
-                reproducible_until=float(attributes["reproducible_until"]),
-                runs_part_at=float(attributes["runs_part_at"]),
-            )
-        return found
+        if self._accuracy is None:
+            self._accuracy = {}
+            with opened(self.path, _unreadable, "accuracy is damaged") as file:
+                for name in self._errors:
+                    self._accuracy[name] = self._motion_error(name, file[_ACCURACY + name])
+        return dict(self._accuracy)
+
+    def _motion_error(self, name: str, table: h5py.Dataset) -> MotionError:
+        values = real(table[:])
+        if values.ndim != 2 or values.shape[1] != 3:
+            raise ResultsError(f"{self.path}: accuracy of {name} is damaged")
+        time, error, relative = values.T
+        return MotionError(
+            time,
+            error,
+            relative,
+            motion=float(table.attrs["motion"]),
+            reproducible_until=float(table.attrs["reproducible_until"]),
+            runs_part_at=float(table.attrs["runs_part_at"]),
+        )
+
+    @property
+    def not_reproducible(self) -> str:
+        """Why the motion is not known to be reproducible to the end; empty: it is."""
+        known = self._statistics
+        if known.get("at_rest"):
+            return ""
+        compared = any(len(error.time) > 1 for error in self.accuracy().values())
+        if (missing := known.get("accuracy_missing")) or not compared:
+            until = known.get("estimated_until")
+            after = "" if until is None else f" after t = {float(until):.4g} s"
+            return f"the error is not estimated{after}: {missing or 'nothing was compared'}"
+        return self._lost
+
+    @property
+    def doubts(self) -> list[str]:
+        """Bodies and lines that are not reproducible to the end, and notes on what looks wrong."""
+        lost = self._lost
+        return [lost] * bool(lost) + [note for note in self.notes if note.startswith("looks wrong")]
+
+    @property
+    def _lost(self) -> str:
+        return ", ".join(
+            f"{name} is reproducible until t = {error.reproducible_until:.4g} s"
+            for name, error in self.accuracy().items()
+            if not error.reproducible
+        )
 
     @property
     def message(self) -> str:
@@ -300,9 +399,23 @@ class Recording(Mapping[str, "xarray.DataArray"]):
 
         return xarray.Variable("time", self._time, {"unit": "s", "units": "s"})
 
-    def _load(self, name: str) -> xarray.DataArray:
-        import xarray
+    def channel(self, name: str) -> Channel:
+        """Return values and attributes of a channel without labels.
 
+        Raises
+        ------
+        ChannelError
+            There is no such channel.
+        ResultsError
+            The channel is damaged, or the file has changed since it was opened.
+        """
+        if name not in self._read:
+            if name not in self._names:
+                raise self.missing(name)
+            self._read[name] = self._load(name)
+        return self._read[name]
+
+    def _load(self, name: str) -> Channel:
         if identity(self.path) != self._identity:
             raise ResultsError(
                 f"{self.path}: the file has changed since it was opened; read it again"
@@ -317,20 +430,15 @@ class Recording(Mapping[str, "xarray.DataArray"]):
             }
         if "unit" in attributes:
             attributes["units"] = attributes["unit"]  # the name that xarray and netCDF know
-        dims: list[str] = ["time"]
-        coords: dict[str, Any] = {"time": self._time_coordinate()}
-        if values.ndim == 2 and values.shape[1] in _COMPONENTS:
-            dimension, labels = _COMPONENTS[values.shape[1]]
-            dims.append(dimension)
-            coords[dimension] = labels
-        elif values.ndim == 2 and name.startswith("forces/"):  # numbers along a line
-            dims.append(f"along_{values.shape[1]}")
-        if len(dims) != values.ndim or len(values) != len(self._time):
+        labelled = values.ndim == 2 and (
+            values.shape[1] in _COMPONENTS or name.startswith("forces/")  # numbers along a line
+        )
+        if values.ndim != 1 + labelled or len(values) != len(self._time):
             raise ResultsError(
                 f"{self.path}: channel {name} has shape {values.shape}, expected "
                 f"({len(self._time)},), ({len(self._time)}, 3) or ({len(self._time)}, 4)"
             )
-        return xarray.DataArray(values, coords, dims, name=name, attrs=attributes)
+        return Channel(name, values, attributes)
 
     def missing(self, name: str) -> ChannelError:
         """Return the error for a channel that is not there; it names what is near."""

@@ -144,11 +144,11 @@ def _expected(results: Recording, name: str) -> list[str]:
     start = results.settled
     if not results.is_sample(start):
         return []
-    channel = results[name]
-    found = intervals_of(channel.to_numpy()[results.time >= start])
+    channel = results.channel(name)
+    found = intervals_of(channel.values[results.time >= start])
     if not found:
         return []
-    factor, unit = displayed(str(channel.attrs.get("unit", "")))
+    factor, unit = displayed(channel.unit)
     least, largest = (
         f"{factor * low:z.3g} to {factor * high:z.3g}" for low, high in (found["min"], found["max"])
     )
@@ -170,12 +170,12 @@ def _loads(results: Recording) -> list[str]:
     kept = results.time >= min(start, results.end_time)
     lines = []
     for name in names:
-        channel = results[name]
-        values = channel.to_numpy().reshape(len(results.time), -1)
+        channel = results.channel(name)
+        values = channel.values.reshape(len(results.time), -1)
         components = [f".{c}" for c in "xyz"] if values.shape[1] == 3 else [""]
         for component, series in zip(components, values.T, strict=True):
             if series.any():
-                mean = f"mean {series[kept].mean():.4g} {channel.attrs['unit']}"
+                mean = f"mean {series[kept].mean():.4g} {channel.unit}"
                 lines.append((name + component, f"{mean}, {_range(results, series)}"))
     width = max((len(name) for name, _ in lines), default=0)
     head = f"  loads of supports{f', means after {start:g} s' * (start > 0)}:"
@@ -205,12 +205,13 @@ def _controllers(results: Recording) -> list[str]:
 def _work(results: Recording) -> list[str]:
     """The work of each load over the run, largest first, and the kinetic energy that came of it."""
     head, least = "energy/work/", 1e-3
+    channels = map(results.channel, results.channels(f"{head}*"))
     done = {
-        name.removeprefix(head): float(results[name].to_numpy()[-1])
-        for name in results.channels(f"{head}*")
+        channel.name.removeprefix(head): float(channel.values[-1])
+        for channel in channels
         if len(results.time)
-        and results[name].ndim == 1
-        and not str(results[name].attrs.get("description", "")).startswith("Part of")
+        and channel.values.ndim == 1
+        and not str(channel.attributes.get("description", "")).startswith("Part of")
     }
     largest = max(map(abs, done.values()), default=0.0)
     if not largest > 0.0:
@@ -231,17 +232,18 @@ _JOULES = [(1e9, "GJ"), (1e6, "MJ"), (1e3, "kJ"), (1.0, "J"), (1e-3, "mJ")]
 def _impacts(results: Recording) -> list[str]:
     """One line for each stop that was struck."""
     lines = []
-    for name, table in results.impacts.items():
-        unit = table["impulse"].attrs["unit"]
-        largest = table.isel(impact=int(np.argmax(table["impulse"].values)))
+    for name, table in results.impact_tables().items():
+        times, _ = table["time"]
+        impulse, unit = table["impulse"]
+        lost, _ = table["energy_lost"]
+        k = int(np.argmax(impulse))
         lines.append(
-            f"  {name}: struck {table.sizes['impact']} times, largest impulse "
-            f"{float(largest['impulse']):.4g} {unit} at t = {float(largest['time']):.4g} s, "
-            f"energy lost in all {float(table['energy_lost'].sum()):.4g} J"
+            f"  {name}: struck {len(times)} times, largest impulse {impulse[k]:.4g} {unit} at "
+            f"t = {times[k]:.4g} s, energy lost in all {lost.sum():.4g} J"
         )
         if "peak_force" in table:
-            peak = table["peak_force"]
-            lines[-1] += f", peak force {float(peak.max()):.4g} {peak.attrs['unit']}"
+            peak, unit = table["peak_force"]
+            lines[-1] += f", peak force {peak.max():.4g} {unit}"
     return lines
 
 
@@ -253,7 +255,7 @@ def _overloads(results: Recording) -> list[str]:
         if f"forces/{name}/parted" in results:
             lines += _parting(results, name)
             continue
-        ratio = results[channel].to_numpy()
+        ratio = results.channel(channel).values
         over = np.flatnonzero(ratio > 1.0)
         if not len(over):
             continue
@@ -267,12 +269,12 @@ def _overloads(results: Recording) -> list[str]:
 
 def _parting(results: Recording, name: str) -> list[str]:
     """That this rope or line has parted, when and where."""
-    place = results[f"forces/{name}/parted"].to_numpy()
+    place = results.channel(f"forces/{name}/parted").values
     if not len(place) or not place[-1]:
         return []
-    at = float(results[f"forces/{name}/parted_at"].to_numpy()[-1])
+    at = float(results.channel(f"forces/{name}/parted_at").values[-1])
     if f"forces/{name}/tension_along" in results:
-        segments = results[f"forces/{name}/tension_along"].shape[1]
+        segments = results.channel(f"forces/{name}/tension_along").values.shape[1]
         where = f" in segment {int(place[-1])} of {segments}, counted from end A"
     elif f"forces/{name}/length_on_seabed" in results:
         where = f" in part {int(place[-1])}, counted from end A"
@@ -282,11 +284,11 @@ def _parting(results: Recording, name: str) -> list[str]:
 
 
 def _extrema(results: Recording, name: str) -> str:
-    channel = results[name]
-    values = channel.to_numpy()
+    channel = results.channel(name)
+    values = channel.values
     if not len(values):
         return "no samples"
-    factor, unit = displayed(str(channel.attrs.get("unit", "")))
+    factor, unit = displayed(channel.unit)
     low, high = (
         f"{factor * values[i]:z8.3f} {unit} at {results.time[i]:.2f} s"
         for i in (int(np.argmin(values)), int(np.argmax(values)))
@@ -305,11 +307,11 @@ def _energy_balance(results: Recording) -> str:
     # a file of an earlier version, or one cut short
     if "energy/balance_error" not in results or "energy/kinetic" not in results:
         return ""
-    error = np.abs(results["energy/balance_error"].to_numpy())
-    scale = np.abs(results["energy/kinetic"].to_numpy())
+    error = np.abs(results.channel("energy/balance_error").values)
+    kinetic = np.abs(results.channel("energy/kinetic").values)
     if "energy/kinetic_added_mass" in results:
-        scale = scale + results["energy/kinetic_added_mass"].to_numpy()
-    if not len(error) or not scale.max() > 0:
+        kinetic = kinetic + results.channel("energy/kinetic_added_mass").values
+    if not len(error) or not kinetic.max() > 0:
         return ""
-    share = error.max() / scale.max()
+    share = error.max() / kinetic.max()
     return f"energy balance: error at most {share:.1e} of the largest kinetic energy"

@@ -6,15 +6,15 @@ import os
 import shutil
 import signal
 import tempfile
+import warnings
 import weakref
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from threading import Event, current_thread, main_thread
 from types import FrameType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from hydrodae.case import Case
 from hydrodae.case.callbacks.controllers import (
     Controller,
     kernel_controllers,
@@ -22,9 +22,13 @@ from hydrodae.case.callbacks.controllers import (
 )
 from hydrodae.case.callbacks.drives import Drive, Kernel, kernel_drives
 from hydrodae.case.callbacks.laws import Force, kernel_forces
+from hydrodae.case.callbacks.names import with_functions
 from hydrodae.case.case import CaseLike, read_case
-from hydrodae.errors import CaseError, RunInterrupted, SolverError
+from hydrodae.errors import CaseError, NotReproducible, RunInterrupted, RunWarning, SolverError
 from hydrodae.results import Results
+
+if TYPE_CHECKING:
+    from hydrodae._core import Scene
 
 #: Called with the time and the end time [s] at every output sample; return False to stop the run.
 Progress = Callable[[float, float], bool | None]
@@ -42,6 +46,7 @@ def run(
     verify: str = "",
     checkpoint: float | None = None,
     resume: bool = False,
+    strict: bool = False,
 ) -> Results:
     """Simulate a case from its initial state to its end time.
 
@@ -82,8 +87,12 @@ def run(
         seconds of wall time: what `resume` goes on from when the run was killed or stopped. At
         each the method starts again (see `Simulation.state`).
     resume : bool
-        Go on from the checkpoint; the results then hold the whole run. Case, overrides, database
-        and version have to be those of that run. Functions in `drives` are the caller's to repeat.
+        Go on from the checkpoint; the results then hold the whole run, its estimated error
+        included. Case, overrides, files that the case reads, functions (by their compiled source)
+        and version have to be those of that run.
+    strict : bool
+        Raise NotReproducible where the motion of a body or line is not reproducible to the end, or
+        no estimate of its error reaches the end (see `Results.not_reproducible`).
 
     Returns
     -------
@@ -98,7 +107,14 @@ def run(
         The integration failed, or the disk is full. What was computed is kept: the attribute
         `results` of the exception is a `Results`, or None when the run did not even start.
     RunInterrupted
-        Stopped by `progress` or by Ctrl-C (SIGINT); attribute `results` as above.
+        Stopped by `progress`, by Ctrl-C (SIGINT) or by SIGTERM; attribute `results` as above.
+    NotReproducible
+        Of a `strict` run; attribute `results` as above.
+
+    Warns
+    -----
+    RunWarning
+        The motion is not reproducible to the end, or the case looks wrong (`Results.notes`).
     """
     case = read_case(case, set)
     functions = (
@@ -106,6 +122,7 @@ def run(
         kernel_forces(case.scene, forces),
         kernel_controllers(case.scene, controllers),
     )
+    scene = with_functions(case.scene, drives=drives, forces=forces, controllers=controllers)
     folder = None
     if output is None:
         if checkpoint is not None or resume:
@@ -117,15 +134,15 @@ def run(
         path.parent.mkdir(parents=True, exist_ok=True)
     older = _stamp(path)
     try:
-        status = _integrate(case, path, progress, functions, verify, checkpoint, resume)
+        status = _integrate(scene, path, progress, functions, (verify, checkpoint, resume, strict))
     except SolverError as error:
-        error.results = None if _stamp(path) == older else Results(path, owner=folder)
+        error.results = None if _stamp(path) == older else Results(path, owner=folder, sound=True)
         raise
     except Exception as error:  # of a function of the caller's
         if _stamp(path) != older:
-            error.results = Results(path, owner=folder)  # type: ignore[attr-defined]
+            error.results = Results(path, owner=folder, sound=True)  # type: ignore[attr-defined]
         raise
-    results = Results(path, owner=folder)
+    results = Results(path, owner=folder, sound=True)
     if status == "interrupted":
         why = "" if results.message in ("", "stopped on request") else f": {results.message}"
         stopped = RunInterrupted(
@@ -133,17 +150,21 @@ def run(
         )
         stopped.results = results
         raise stopped
+    if strict and (reason := results.not_reproducible):
+        unknown = NotReproducible(f"strict: {reason}")
+        unknown.results = results
+        raise unknown
+    if doubts := results.doubts:
+        warnings.warn("; ".join(doubts), RunWarning, stacklevel=2)
     return results
 
 
 def _integrate(
-    case: Case,
+    scene: Scene,
     path: Path,
     progress: Progress | None,
     functions: tuple[dict[str, Kernel], dict[str, Force], dict[str, Controller]],
-    verify: str,
-    checkpoint: float | None,
-    resume: bool,
+    options: tuple[str, float | None, bool, bool],
 ) -> str:
     """Run the kernel; returns its status. Exceptions of `progress` end the run and come back here.
 
@@ -151,6 +172,7 @@ def _integrate(
     """
     from hydrodae import _core
 
+    verify, checkpoint, resume, strict = options
     failure: list[BaseException] = []
 
     def report(time: float, end_time: float) -> bool:
@@ -163,7 +185,7 @@ def _integrate(
 
     with _interrupt_event() as interrupt:
         status: str = _core.simulate(
-            case.scene,
+            scene,
             str(path),
             report,
             *functions,
@@ -171,6 +193,7 @@ def _integrate(
             verify,
             -1.0 if checkpoint is None else checkpoint,
             resume,
+            strict,
         )["status"]
     if failure:
         raise failure[0]
@@ -188,7 +211,7 @@ def _stamp(path: Path) -> tuple[int, int] | None:
 
 @contextmanager
 def _interrupt_event() -> Iterator[Event]:
-    """Turn the first Ctrl-C into an event; a second one is a KeyboardInterrupt as usual."""
+    """Turn the first Ctrl-C or SIGTERM into an event; a second one has its usual effect."""
     event = Event()
     if current_thread() is not main_thread():  # only the main thread may set handlers
         yield event
@@ -196,13 +219,17 @@ def _interrupt_event() -> Iterator[Event]:
 
     def stop(_signal: int, _frame: FrameType | None) -> None:
         event.set()
-        signal.signal(signal.SIGINT, before)
+        restore()
 
-    before = signal.signal(signal.SIGINT, stop)
+    def restore() -> None:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+    before = {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
         yield event
     finally:
-        signal.signal(signal.SIGINT, before)
+        restore()
 
 
 class _TemporaryFolder:

@@ -12,6 +12,7 @@ from hydrodae.case import Case
 from hydrodae.case.callbacks.controllers import Controller, kernel_controllers
 from hydrodae.case.callbacks.drives import Drive, kernel_drives
 from hydrodae.case.callbacks.laws import Force, kernel_forces
+from hydrodae.case.callbacks.names import with_functions
 from hydrodae.case.case import read_case
 from hydrodae.support.arrays import Array
 
@@ -62,7 +63,7 @@ class Simulation:
         self._case = read_case(case, set)
         scene = self._case.scene
         self._stepper = _core.Stepper(
-            scene,
+            with_functions(scene, drives=drives, forces=forces, controllers=controllers),
             kernel_drives(scene, drives),
             kernel_forces(scene, forces),
             kernel_controllers(scene, controllers),

@@ -68,9 +68,15 @@ def opened(
     """
     if search and (at := _damaged_texts(path)) is not None:
         raise error(path, f"{what}: a collection of texts at byte {at} is damaged")
+    with guarded(path, error, what), h5py.File(path, "r") as file:
+        yield file
+
+
+@contextmanager
+def guarded(path: Path, error: Callable[[Path, str], HydrodaeError], what: str) -> Iterator[None]:
+    """Raise one error for everything that the contents of a file make impossible, as `opened`."""
     try:
-        with h5py.File(path, "r") as file:
-            yield file
+        yield
     except HydrodaeError:
         raise
     except (

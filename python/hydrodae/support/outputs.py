@@ -6,6 +6,8 @@ The content decides the kind of a file that is there; its ending only where it i
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import h5py
@@ -101,6 +103,37 @@ def claim_folder(path: str | os.PathLike[str]) -> Path:
     except OSError as error:
         raise CaseError(f"{folder}: no folder can be made there: {error.strerror}") from None
     return folder
+
+
+@contextmanager
+def whole(path: Path) -> Iterator[Path]:
+    """Give a path to write to, which becomes `path` when all is written; else nothing is left.
+
+    Raises
+    ------
+    OSError
+        It cannot be written, as on a full disk; `filename` names it.
+    """
+    if path.exists() and not path.is_file():  # a device or a pipe
+        yield path
+        return
+    target = Path(os.path.realpath(path))
+    beside = target.with_name(f"{target.stem}.writing{target.suffix}")
+    try:
+        yield beside
+        beside.replace(target)
+    except OSError as error:
+        if error.filename in (None, str(beside)):
+            raise OSError(error.errno, error.strerror or str(error), str(path)) from None
+        raise
+    finally:
+        beside.unlink(missing_ok=True)
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a whole text file, or leave what is there; raises OSError as `whole`."""
+    with whole(path) as beside:
+        beside.write_text(text, encoding="utf-8")
 
 
 def kind_of(path: Path) -> str | None:

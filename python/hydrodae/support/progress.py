@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable
+from functools import cached_property
 from time import monotonic
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
-from rich.console import Console
-from rich.markup import escape
-from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
-from rich.status import Status
+if TYPE_CHECKING:  # rich takes longer to load than short work takes
+    from rich.console import Console
+    from rich.progress import Progress
+    from rich.status import Status
 
 #: Wall time before anything is shown, s.
 PATIENCE = 1.0
@@ -23,9 +24,14 @@ class _Line:
 
     def __init__(self, title: str) -> None:
         self._title = title
-        self._console = Console(stderr=True)
         self._start = self._last = self._now = monotonic()
         self._live: Progress | Status | None = None
+
+    @cached_property
+    def _console(self) -> Console:
+        from rich.console import Console
+
+        return Console(stderr=True)
 
     def __enter__(self) -> Self:
         return self
@@ -71,6 +77,8 @@ class ProgressLine(_Line):
         self._print_seldom(f"{self._title}: {done}, about {remaining:.0f} s to go")
 
     def _update_bar(self, time: float, end_time: float) -> None:
+        from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
         if not isinstance(self._live, Progress):
             self._live = Progress(
                 TextColumn("{task.description}", markup=False),
@@ -118,6 +126,9 @@ class StageLine(_Line):
         if not self._console.is_terminal:
             self._print_seldom(line)
             return
+        from rich.markup import escape
+        from rich.status import Status
+
         if not isinstance(self._live, Status):
             self._live = Status("", console=self._console)
             self._live.start()

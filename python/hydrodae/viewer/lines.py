@@ -89,7 +89,7 @@ def _catenary(source: Source, force: Mapping[str, Any], bodies: Mapping[str, Bod
     length = list(force["length"])
     if "pretension" in force:
         assert tension is not None
-        length[0] = _length_of(force, b[0] - a[0], float(tension[0, 0]))
+        length[0] = _length_of(force, a[0], b[0], float(tension[0, 0]))
     points = np.empty((len(a), POINTS, 3))
     along = np.empty((len(a), POINTS - 1))
     arc = np.empty(POINTS)
@@ -105,12 +105,14 @@ def _hanging(
     away = end - start
     reach = float(np.hypot(away[0], away[1]))
     towards = away[:2] / reach if reach > 0.0 else np.array([1.0, 0.0])
-    shape = _at_rest(force, length, away)
+    shape = _at_rest(force, length, away, -float(start[2]))
     places = np.column_stack([np.outer(shape.x, towards), shape.z]) + start
     return places, 0.5 * (shape.tension_along[1:] + shape.tension_along[:-1]), shape.s
 
 
-def _at_rest(force: Mapping[str, Any], length: Sequence[float], away: Array) -> Catenary:
+def _at_rest(
+    force: Mapping[str, Any], length: Sequence[float], away: Array, surface: float
+) -> Catenary:
     return catenary(
         float(np.hypot(away[0], away[1])),
         float(away[2]),
@@ -118,20 +120,24 @@ def _at_rest(force: Mapping[str, Any], length: Sequence[float], away: Array) -> 
         force["weight"],
         force["stiffness"],
         loads=force.get("loads", ()),
+        dry_weight=force.get("dry_weight"),
+        dry_loads=force.get("dry_loads", ()),
+        surface=surface,
         seabed=force.get("seabed", True),
         friction=force.get("friction", 0.0),
         n=POINTS,
     )
 
 
-def _length_of(force: Mapping[str, Any], away: Array, tension: float) -> float:
+def _length_of(force: Mapping[str, Any], start: Array, end: Array, tension: float) -> float:
     """Unstretched length of the first part that gives the tension at B, by bisection."""
     rest = sum(force["length"][1:])
+    away, surface = end - start, -float(start[2])
     span = float(np.linalg.norm(away))
     low, high = max(0.5 * span - rest, 1e-3 * span), 4.0 * span + force["length"][0]
     for _ in range(60):
         middle = 0.5 * (low + high)
-        pull = _at_rest(force, [middle, *force["length"][1:]], away).tension
+        pull = _at_rest(force, [middle, *force["length"][1:]], away, surface).tension
         low, high = (middle, high) if pull > tension else (low, middle)
     return float(0.5 * (low + high))
 

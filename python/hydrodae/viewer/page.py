@@ -185,5 +185,5 @@ def _read(folder: Any, name: str) -> str:
 
 def write_page(text: str, path: Path) -> Path:
     """Write the HTML to a file, whose folder is made."""
-    outputs.claim(path, outputs.PAGE).write_text(text, encoding="utf-8")
+    outputs.write_text(outputs.claim(path, outputs.PAGE), text)
     return path

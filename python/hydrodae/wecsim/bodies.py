@@ -74,7 +74,7 @@ class Bodies:
 
     def is_wet(self, number: int) -> bool:
         """Whether it has a body in the database."""
-        dry = int(self.item(number).number_of("nonHydro"))
+        dry = self.item(number).whole("nonHydro")
         return self.database is not None and not dry and self.names[number] in self.database.bodies
 
     def center_of_gravity(self, number: int) -> Array:
@@ -151,13 +151,14 @@ class Bodies:
             self._damping(text, item, name)
         self._morison(text, item, number, name)
 
-    def _left_out(self, item: Item, field: str, text: str) -> None:
+    def _left_out(self, item: Item, field: str, text: str, part: str = "") -> None:
         item.used.add(field)
-        self.read.remarks.left_out(self.read.place(item.line_of(field)), f"{item.title}: {text}")
+        place = self.read.place(item.line_of(field))
+        self.read.remarks.left_out(place, f"{item.title}: {text}", part)
 
     def _surface(self, item: Item, number: int, motion: str) -> dict[str, Any]:
         """Keys for pressure on the mesh at each instant, which nonlinearHydro asks for."""
-        option = int(item.number_of("nonlinearHydro"))
+        option = item.whole("nonlinearHydro")
         if option == 0:
             return {}
         effect = "nonlinear hydrodynamics (pressure on the mesh at each instant)"
@@ -215,7 +216,7 @@ class Bodies:
         remarks = self.read.remarks
         for field, text in LACKING.items():
             if np.any(item.vector(field, [0.0]) != 0.0):
-                self._left_out(item, field, text)
+                self._left_out(item, field, text, "modes" if field == "flex" else "")
         for field in item.entries:
             if field.startswith("variableHydro."):
                 item.used.add(field)
@@ -240,14 +241,14 @@ class Bodies:
         text.table("[[force]]", keys, f"linearDamping and quadDrag of {item.title}")
 
     def _morison(self, text: CaseText, item: Item, number: int, name: str) -> None:
-        option = int(item.number_of("morisonElement.option"))
+        option = item.whole("morisonElement.option")
         fields = ("cd", "ca", "area", "VME", "rgME", "z")
-        rows = {f: np.atleast_2d(item.get(f"morisonElement.{f}", 0.0)) for f in fields}
+        rows = {f: item.matrix(f"morisonElement.{f}") for f in fields}
         if option == 0:
             return
         center = self.center_of_gravity(number)
         for index in range(max(len(value) for value in rows.values())):
-            element = {f: v[min(index, len(v) - 1)].ravel() for f, v in rows.items()}
+            element = {f: v[min(index, len(v) - 1)].ravel()[:3] for f, v in rows.items()}
             found = members(option, element, center)
             if not found:
                 self._left_out(

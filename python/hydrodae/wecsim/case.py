@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -33,6 +34,10 @@ INPUT = "wecSimInputFile.m"
 _KEEP = {"rigid": "all", "planar": "planar", "heave": "heave", "yaw": "yaw"}
 #: What these become by hand.
 _OTHERS = {"cable": "a cable; see the force rope", "wind": "wind", "windTurbine": "a wind turbine"}
+#: Parts of a device by the object that states their fields; see `Remark`.
+_PARTS = {"waves": "waves", "pto": "pto", "constraint": "joint", "mooring": "mooring"}
+#: Fields of these without which they are what they are, but for chance and pictures.
+_CHANCE = ("phaseSeed", "bem.", "marker.", "viz.")
 
 
 @dataclass
@@ -51,7 +56,11 @@ class Converted:
     remarks: Remarks
 
 
-def convert(source: str | os.PathLike[str], folder: str | os.PathLike[str]) -> Converted:
+def convert(
+    source: str | os.PathLike[str],
+    folder: str | os.PathLike[str],
+    accept: Sequence[str] | None = (),
+) -> Converted:
     """Write a case for a run of WEC-Sim: case.toml, hydro.h5 and what they need.
 
     Parameters
@@ -60,11 +69,15 @@ def convert(source: str | os.PathLike[str], folder: str | os.PathLike[str]) -> C
         The folder with `wecSimInputFile.m` and its Simulink model, or the input file.
     folder : path
         A new or empty folder.
+    accept : sequence of str
+        Parts of the device that the case may lack, as `hydrodae.wecsim.remarks.Remark` names them;
+        None for whatever is missing.
 
     Raises
     ------
     CaseError
-        A file is missing or cannot be understood, or the folder is not empty.
+        A file is missing or cannot be understood, the folder is not empty, or the case would lack
+        a part of the device that `accept` does not name.
     DatabaseError
         The database cannot be read.
     """
@@ -80,10 +93,6 @@ def convert(source: str | os.PathLike[str], folder: str | os.PathLike[str]) -> C
     target.mkdir(parents=True, exist_ok=True)
     try:
         text = _write(read, model, topology, database, radiation, why, target)
-        if database is not None:
-            database.write(target / "hydro.h5")
-        case = target / "case.toml"
-        case.write_text(str(text), encoding="utf-8")
         if conditions is not None:
 
             def again(other: InputFile) -> CaseText:
@@ -96,9 +105,20 @@ def convert(source: str | os.PathLike[str], folder: str | os.PathLike[str]) -> C
                 return _write(other, model, found, database, keys, why, target)
 
             write_study(conditions, read, str(text), again, target)
+        _unused(read)
+        if accept is not None:
+            read.remarks.check(accept)
+        text.head("missing", [str(remark) for remark in read.remarks.of("left out")])
+        if database is not None:
+            database.write(target / "hydro.h5")
+        case = target / "case.toml"
+        case.write_text(str(text), encoding="utf-8")
+        _check(case, read)
+        return Converted(case, read.remarks)
     except BaseException:
         for file in [
             *target.glob("*.stl"),
+            *target.glob("*.csv"),
             target / "case.toml",
             target / "hydro.h5",
             target / STUDY,
@@ -108,8 +128,13 @@ def convert(source: str | os.PathLike[str], folder: str | os.PathLike[str]) -> C
         if made and not any(target.iterdir()):
             target.rmdir()
         raise
-    _unused(read)
-    return Converted(Case.read(case).path or case, read.remarks)
+
+
+def _check(case: Path, read: InputFile) -> None:
+    try:
+        Case.read(case)
+    except CaseError as error:
+        raise CaseError(f"{read.path}: its values make a case that is refused: {error}") from None
 
 
 def _input_file(source: Path) -> Path:
@@ -147,7 +172,7 @@ def _database(
     for number, name in sorted(topology.names.items()):
         item = read.get("body", number)
         stated = item.arguments[0] if item is not None and item.arguments else ""
-        if item is None or int(item.number_of("nonHydro")) or not stated:
+        if item is None or item.whole("nonHydro") or not stated:
             continue
         if isinstance(stated, list):
             stated = stated[0]
@@ -319,7 +344,8 @@ def _unused(read: InputFile) -> None:
     for item in read.items.values():
         if item.kind in _OTHERS:
             text = f"{item.title}: {_OTHERS[item.kind]}"
-            read.remarks.left_out(read.place(item.line), text)
+            part = item.kind.removesuffix("Turbine")
+            read.remarks.left_out(read.place(item.line), text, part)
             continue
         if item.kind in ("body", "constraint", "pto") and "" not in item.used:
             read.remarks.left_out(
@@ -334,3 +360,7 @@ def _unused(read: InputFile) -> None:
         for field, entry in item.entries.items():
             if field not in item.used:
                 read.remarks.left_out(read.place(entry.line), f"{item.title}.{field}")
+        for field, remark in item.unread.items():
+            needed = field in item.used - set(item.entries) and not field.startswith(_CHANCE)
+            if needed and not remark.part:
+                remark.part = _PARTS.get(item.kind, "")

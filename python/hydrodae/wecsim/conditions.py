@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import copy
 import itertools
+import math
 import tomllib
-import zipfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
-from xml.etree import ElementTree
 
 import numpy as np
 
 from hydrodae.case.case import to_toml
 from hydrodae.errors import CaseError
+from hydrodae.records.matlab import load
+from hydrodae.wecsim.archive import opened
 from hydrodae.wecsim.m_file import assign, read_input
 from hydrodae.wecsim.m_text import NotEvaluated
 from hydrodae.wecsim.objects import InputFile
@@ -25,6 +26,8 @@ from hydrodae.wecsim.text import CaseText
 
 #: Name of the study beside the case.
 STUDY = "conditions.toml"
+#: Most conditions; each is converted, in about 0.01 s.
+_MOST = 10_000
 _FILES = ("mcrMatFile", "mcrExcelFile")
 _SHEET = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 
@@ -71,7 +74,7 @@ def find_conditions(read: InputFile) -> Conditions | None:
 
 def _number(kind: str) -> int:
     inside = kind.partition("(")[2].rstrip(")")
-    return int(inside) if inside.isdigit() else 1
+    return int(inside) if inside.isdecimal() else 1
 
 
 def _stated(read: InputFile) -> Conditions | None:
@@ -85,7 +88,7 @@ def _stated(read: InputFile) -> Conditions | None:
         try:
             header, rows = _table(read.path.parent / names["mcrMatFile"], read)
             return Conditions(header, rows, place)
-        except (OSError, ValueError, KeyError, CaseError) as error:
+        except (OSError, TypeError, ValueError, CaseError) as error:
             text = f"simu.mcrMatFile: {names['mcrMatFile']!r} cannot be read ({error})"
             read.remarks.left_out(place, text)
             return None
@@ -95,7 +98,7 @@ def _stated(read: InputFile) -> Conditions | None:
         place = read.place(simu.line_of("mcrExcelFile"))
         try:
             states = list(_scatter(read.path.parent / names["mcrExcelFile"]))
-        except (OSError, ValueError, KeyError, zipfile.BadZipFile) as error:
+        except (ValueError, CaseError) as error:
             text = f"simu.mcrExcelFile: {names['mcrExcelFile']!r} cannot be read ({error})"
             read.remarks.left_out(place, text)
             return None
@@ -110,7 +113,7 @@ def _combined(read: InputFile, states: list[tuple[Any, ...]], place: str) -> Con
     if len(waves) == 1:
         heights, periods = (waves[0].vector(f, []) for f in ("height", "period"))
         if not states and max(heights.size, periods.size) > 1:
-            states = list(itertools.product(heights, periods))
+            states = list(itertools.islice(itertools.product(heights, periods), _MOST + 1))
         if states:
             header += ["waves.height", "waves.period"]
             axes.append(states)
@@ -123,7 +126,10 @@ def _combined(read: InputFile, states: list[tuple[Any, ...]], place: str) -> Con
         if max(damping.size, stiffness.size) > 1:
             header += [f"{pto.title}.damping", f"{pto.title}.stiffness"]
             axes.append([(c, k) for k in stiffness for c in damping])
-    if not axes:
+    count = math.prod(len(axis) for axis in axes)
+    if count > _MOST:
+        read.remarks.left_out(place, f"{count} conditions; at most {_MOST} are read")
+    if not axes or count > _MOST:
         return None
     turned = itertools.product(*axes[::-1])  # the first varies fastest
     rows = [[float(v) for part in parts[::-1] for v in part] for parts in turned]
@@ -135,9 +141,9 @@ def _table(path: Path, read: InputFile) -> tuple[list[str], list[list[Any]]]:
     if path.suffix != ".mat":
         path = path.with_name(f"{path.name}.mat")
     if path.is_file():
-        from scipy.io import loadmat
-
-        mcr = loadmat(path, simplify_cells=True)["mcr"]
+        mcr = load(path).get("mcr")
+        if not isinstance(mcr, dict) or not {"header", "cases"} <= set(mcr):
+            raise ValueError("it has no struct mcr with header and cases")
         header, cases = mcr["header"], mcr["cases"]
     else:
         script = _script(path)
@@ -151,6 +157,8 @@ def _table(path: Path, read: InputFile) -> tuple[list[str], list[list[Any]]]:
     table = np.atleast_2d(np.asarray(cases))
     if len(names) == 1:
         table = table.reshape(-1, 1)
+    if len(table) > _MOST:
+        raise ValueError(f"{len(table)} conditions; at most {_MOST} are read")
     if table.shape[1] != len(names):
         raise ValueError(f"{len(names)} names for {table.shape[1]} columns")
     if any(np.size(v) != 1 for row in table for v in row):
@@ -168,17 +176,15 @@ def _script(path: Path) -> Path:
 
 def _scatter(path: Path) -> Iterator[tuple[float, float]]:
     """Heights and periods of an .xlsx table whose hours are above zero."""
-    with zipfile.ZipFile(path) as archive:
-        text = archive.read("xl/worksheets/sheet1.xml")
-    if b"<!DOCTYPE" in text or b"<!ENTITY" in text:
-        raise ValueError("it declares entities, which no sheet does")
+    with opened(path, ".xlsx table") as archive:
+        sheet = archive.xml("xl/worksheets/sheet1.xml")
     cells = {
         cell.get("r", ""): float(cell.findtext(f"{_SHEET}v") or 0.0)
-        for cell in ElementTree.fromstring(text).iter(f"{_SHEET}c")
+        for cell in sheet.iter(f"{_SHEET}c")
         if cell.get("t", "n") == "n"
     }
     columns = {n.rstrip("1"): v for n, v in cells.items() if n.endswith("1") and n[:-1].isalpha()}
-    heights = {int(n[1:]): v for n, v in cells.items() if n[0] == "A" and n[1:].isdigit()}
+    heights = {int(n[1:]): v for n, v in cells.items() if n[:1] == "A" and n[1:].isdecimal()}
     for row, height in heights.items():
         for column, period in columns.items():
             if row > 1 and column != "A" and cells.get(f"{column}{row}", 0.0) > 0.0:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import os
-import re
 import warnings
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from hydrodae.errors import CaseError, DatabaseError
@@ -14,23 +14,27 @@ from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.preparation.fitting import fit, kernel
 from hydrodae.hdb.preparation.importing import import_database
 from hydrodae.hdb.readers.reading import read
+from hydrodae.wecsim.m_file import calls
 from hydrodae.wecsim.objects import InputFile
 
 #: A file below this size is no database; repositories keep a pointer of Git LFS in its place.
 SMALLEST = 1000
-_CALL = re.compile(
-    r"^\s*(?:\w+\s*=\s*)?read(WAMIT|NEMOH|CAPYTAINE|AQWA|HAMS)\s*\((.*)\)", re.IGNORECASE | re.M
-)
+#: Functions of BEMIO, of which the second argument is a file or folder of results.
+_READERS = ("readWAMIT", "readNEMOH", "readCAPYTAINE", "readAQWA", "readHAMS")
 _RAW = ("*.out", "*.nc", "Nemoh.cal", "*/Nemoh.cal", "*.AH1", "*.h5")
 
 
 def find_source(stated: str, read: InputFile) -> Path:
     """The database that an input file names, or the results that it was made from.
 
+    These are the results that `bemio.m` beside it reads, of several those with the name of the
+    database, because BEMIO names its file so; without `bemio.m` those with this name, or the only
+    ones.
+
     Raises
     ------
     CaseError
-        Neither is there.
+        Neither is there, or it is open which results they are.
     """
     path = read.path.parent / stated.replace("\\", "/")
     if _is_there(path):
@@ -42,18 +46,27 @@ def find_source(stated: str, read: InputFile) -> Path:
         if _is_there(folder / path.name):
             read.remarks.assumed(stated, f"{missing}; read {folder.name}/{path.name}")
             return folder / path.name
-    tried: list[str] = []
-    for candidate in _candidates(folder):
-        tried.append(candidate.name)
-        if _is_there(candidate):
-            read.remarks.assumed(
-                stated, f"{missing}; read {os.path.relpath(candidate, folder)} beside it"
-            )
-            return candidate
-    found = f"; beside it {', '.join(tried)} cannot be used either" if tried else ""
+    named = _named_by_bemio(folder)
+    results = named or [p for glob in _RAW for p in sorted(folder.glob(glob)) if p != path]
+    found = [p for p in results if _is_there(p)]
+    same = [p for p in found if _stem(p) == path.stem.lower()]
+    chosen = same or (found if len(results) == 1 else [])
+    if len(chosen) == 1:
+        by = "as bemio.m does" if named else "beside it"
+        text = f"{missing}; read {os.path.relpath(chosen[0], folder)} {by}"
+        read.remarks.assumed(stated, text)
+        return chosen[0]
+    names = ", ".join(os.path.relpath(p, folder) for p in results)
+    told = f"; {'bemio.m reads' if named else 'beside it'} {names}" if names else ""
+    if found:
+        raise CaseError(
+            f"{path}: {missing}{told}; write in the input file which it was made from, as in "
+            f"bodyClass('{os.path.relpath(found[0], read.path.parent)}')"
+        )
     raise CaseError(
-        f"{path}: {missing}{found}; run bemio.m of WEC-Sim, fetch the file by Git LFS, or put the "
-        "results of the boundary-element code there"
+        f"{path}: {missing}{f'{told}, which cannot be used either' if names else ''}; run bemio.m "
+        "of WEC-Sim, fetch the file by Git LFS, or put the results of the boundary-element code "
+        "there"
     )
 
 
@@ -61,39 +74,69 @@ def _is_there(path: Path) -> bool:
     return path.is_dir() or (path.is_file() and path.stat().st_size > SMALLEST)
 
 
-def _candidates(folder: Path) -> list[Path]:
-    found: list[Path] = []
+def _stem(path: Path) -> str:
+    """Name that BEMIO gives its file: of the results, or of their folder."""
+    named = path.resolve().parent if path.name == "Nemoh.cal" else path.resolve()
+    return (named.name if named.is_dir() else named.stem).lower()
+
+
+def _named_by_bemio(folder: Path) -> list[Path]:
+    """Results that `bemio.m` of a folder reads, in its order."""
     script = folder / "bemio.m"
-    if script.is_file():
-        for call in _CALL.finditer(script.read_text(encoding="utf-8", errors="replace")):
-            if call.group(0).lstrip().startswith("%"):
-                continue
-            for name in re.findall(r"'([^']+)'", call.group(2)):
-                found.append(folder / name.replace("\\", "/"))
-    if folder.is_dir():
-        for pattern in _RAW:
-            found += sorted(folder.glob(pattern))
-    return list(dict.fromkeys(found))
+    if not script.is_file():
+        return []
+    texts = [call[1] for call in calls(script, _READERS) if call[1:] and isinstance(call[1], str)]
+    return list(dict.fromkeys(folder / text.replace("\\", "/") for text in texts))
+
+
+def in_water(database: HydroDatabase, rho: float, gravity: float) -> HydroDatabase:
+    """Scale a database to another density and gravity, as WEC-Sim does.
+
+    A, B ~ rho; F and stiffness ~ rho g. Kernel and fits are left out.
+
+    Parameters
+    ----------
+    database : HydroDatabase
+    rho, gravity : float
+        [kg/m3], [m/s2].
+    """
+    mass = rho / database.rho
+    force = mass * gravity / database.gravity
+    stiffness = {
+        name: body
+        if body.mode_stiffness is None
+        else replace(body, mode_stiffness=force * body.mode_stiffness)
+        for name, body in database.bodies.items()
+    }
+    return replace(
+        database,
+        added_mass=mass * database.added_mass,
+        radiation_damping=mass * database.radiation_damping,
+        added_mass_inf=mass * database.added_mass_inf,
+        added_mass_inf_std=mass * database.added_mass_inf_std,
+        froude_krylov=force * database.froude_krylov,
+        diffraction=force * database.diffraction,
+        bodies=stiffness,
+        rho=rho,
+        gravity=gravity,
+        kernel=None,
+        memory={},
+    )
 
 
 def read_database(
     source: Path, names: Mapping[int, str], rho: float, gravity: float, file: InputFile
 ) -> HydroDatabase:
-    """Read a source, with the names of the case for its bodies.
+    """Read a source, with the names of the case for its bodies, in the water of the input file.
 
     Parameters
     ----------
     names : mapping from int
         Names by the number of the body, which is its place in the source.
+    rho, gravity : float
+        [kg/m3], [m/s2].
     """
-    try:
-        old = list(read(source, rho=rho, gravity=gravity).bodies)
-    except DatabaseError as error:
-        if error.subject not in ("rho", "density"):
-            raise
-        old = list(read(source).bodies)
-        file.remarks.assumed(source.name, f"density and gravity of the source, since {error}")
-        rho = gravity = 0.0
+    old = list(read(source).bodies)
     renaming = {}
     for number, name in names.items():
         if number > len(old) and not (len(names) == len(old) == 1):
@@ -104,14 +147,19 @@ def read_database(
     for name in old:
         if name not in renaming:
             renaming[name] = f"unused_{name}"
-    database, report = import_database(
-        source, names=renaming, rho=rho or None, gravity=gravity or None
-    )
+    database, report = import_database(source, names=renaming)
     for finding in report.left([]):
         file.remarks.assumed(
             source.name, f"check {finding.name}: {finding.message}; taken as it is"
         )
-    return database
+    for what, there, here in (
+        ("rho", database.rho, rho),
+        ("gravity", database.gravity, gravity),
+    ):
+        if there != here:
+            text = f"simu.{what} = {here:g}, to which its {there:g} is scaled, as in WEC-Sim"
+            file.remarks.assumed(source.name, text)
+    return in_water(database, rho, gravity)
 
 
 def with_radiation(

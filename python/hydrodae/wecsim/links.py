@@ -9,7 +9,7 @@ import numpy as np
 
 from hydrodae.support.arrays import Array
 from hydrodae.wecsim.bodies import Bodies
-from hydrodae.wecsim.m_text import NotEvaluated
+from hydrodae.wecsim.m_text import NotEvaluated, understood
 from hydrodae.wecsim.objects import InputFile, Item
 from hydrodae.wecsim.ptosim import Mount, write
 from hydrodae.wecsim.ptosim_trace import find_chain
@@ -102,16 +102,17 @@ class Links:
             start,
         )
         try:
-            chain = find_chain(link.block, link.kind, self.read)
-            if chain is None:
-                return False
-            if link.kind not in _RATES:
-                raise NotEvaluated(f"a joint of type {link.kind}")
-            found = write(text, chain, mount, self.read)
+            with understood():
+                chain = find_chain(link.block, link.kind, self.read)
+                if chain is None:
+                    return False
+                if link.kind not in _RATES:
+                    raise NotEvaluated(f"a joint of type {link.kind}")
+                found = write(text, chain, mount, self.read)
             self.stages = found if self.stages is None else self.stages + found
         except NotEvaluated as error:
             del text.lines[before:]
-            self.read.remarks.left_out(place, f"PTO-Sim at {link.item.title}: {error}")
+            self.read.remarks.left_out(place, f"PTO-Sim at {link.item.title}: {error}", "pto")
         return True
 
     def _law(self, link: Link, place: str) -> Law | None:
@@ -119,13 +120,14 @@ class Links:
         title = link.item.title
         if "Motion" in link.block.kind:
             text = f"motion of {title} from Simulink: see [[constraint]]"
-            self.read.remarks.left_out(place, text)
+            self.read.remarks.left_out(place, text, "controller")
             return None
         try:
-            return find_law(link.block, link.kind, self.read)
+            with understood():
+                return find_law(link.block, link.kind, self.read)
         except NotEvaluated as error:
             text = f"force of {title} from Simulink: {error}; see [[controller]] and python_load"
-            self.read.remarks.left_out(place, text)
+            self.read.remarks.left_out(place, text, "controller")
         return None
 
     def _name(self, item: Item) -> str:

@@ -7,13 +7,14 @@ from typing import Any
 import numpy as np
 
 from hydrodae.wecsim.m_text import NotEvaluated
-from hydrodae.wecsim.m_values import plain
+from hydrodae.wecsim.m_values import plain, sized
 
 
 def meshgrid(values: list[Any]) -> list[Any]:
     """X and Y of ``[X, Y] = meshgrid(x, y)``."""
     if not 1 <= len(values) <= 2 or any(isinstance(v, str | list) for v in values):
         raise NotEvaluated("meshgrid takes one or two arrays of numbers here")
+    sized(np.size(values[0]), np.size(values[-1]))
     return [np.asarray(a) for a in np.meshgrid(np.ravel(values[0]), np.ravel(values[-1]))]
 
 
@@ -26,14 +27,16 @@ def places(index: str, shape: tuple[int, int]) -> tuple[list[int], list[int]]:
         raise NotEvaluated(f"the index {index}")
     ranges = []
     for part, size in zip(parts, shape, strict=True):
-        ends = part.split(":")
+        ends = [int(end) for end in part.split(":") if end.isdecimal() and int(end) > 0]
         if part == ":":
             ranges.append(list(range(size)))
-        elif all(end.isdigit() for end in ends) and len(ends) <= 3:
-            step = int(ends[1]) if len(ends) == 3 else 1
-            ranges.append(list(range(int(ends[0]) - 1, int(ends[-1]), step)))
+        elif len(ends) == part.count(":") + 1 <= 3:
+            found = range(ends[0] - 1, ends[-1], ends[1] if len(ends) == 3 else 1)
+            sized(len(found))
+            ranges.append(list(found))
         else:
             raise NotEvaluated(f"the index {index}")
+    sized(len(ranges[0]), len(ranges[1]))
     return ranges[0], ranges[1]
 
 
@@ -47,6 +50,7 @@ def with_elements(old: Any, index: str, value: Any) -> Any:
         max([array.shape[0], *(row + 1 for row in rows)]),
         max([array.shape[1], *(column + 1 for column in columns)]),
     )
+    sized(*shape)
     grown = np.zeros(shape)
     grown[: array.shape[0], : array.shape[1]] = array
     grown[np.ix_(rows, columns)] = np.broadcast_to(np.atleast_2d(value), (len(rows), len(columns)))

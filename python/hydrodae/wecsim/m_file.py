@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -10,10 +10,11 @@ import numpy as np
 
 from hydrodae.errors import CaseError
 from hydrodae.wecsim.m_arrays import elements, meshgrid, with_elements
-from hydrodae.wecsim.m_text import NotEvaluated, Statement, Token, statements
+from hydrodae.wecsim.m_text import NotEvaluated, Statement, Token, statements, understood
 from hydrodae.wecsim.m_values import Expression
 from hydrodae.wecsim.objects import Entry, InputFile, Item
 from hydrodae.wecsim.old_names import new_name
+from hydrodae.wecsim.remarks import Remark
 
 #: Constructors of WEC-Sim, and the kind of object that each makes.
 CONSTRUCTORS = {
@@ -30,8 +31,9 @@ CONSTRUCTORS = {
 }
 #: Values of simulationClass that input files read before they set them.
 DEFAULTS = {"rho": 1000.0, "gravity": 9.81, "rampTime": 100.0, "dt": 0.1}
-#: Most rounds of a loop.
+#: Most rounds of a loop, and most statements of a file, loops carried out.
 _MOST_LOOPS = 10_000
+_MOST_STATEMENTS = 10 * _MOST_LOOPS
 _OPENERS = ("if", "for", "while", "switch", "function", "try", "parfor")
 #: Statements without an effect on the model.
 _IDLE = ("clear clearvars clc close format hold warning disp fprintf addpath end save").split()
@@ -54,8 +56,30 @@ def read_input(path: Path) -> InputFile:
     except NotEvaluated as error:
         raise CaseError(f"{path}: {error}") from None
     read = InputFile(path)
-    _Run(read).block(parts, 0, True)
+    try:
+        _Run(read).block(parts, 0, True)
+    except RecursionError:
+        raise CaseError(f"{path}: its blocks are nested too deeply") from None
     return read
+
+
+def calls(path: Path, names: Collection[str]) -> list[list[Any]]:
+    """Arguments of each assignment whose right side is a call of one of these functions.
+
+    Arguments that cannot be evaluated are None.
+
+    Raises
+    ------
+    CaseError
+        There is no such file, or it is no text.
+    """
+    read = read_input(path)
+    found = []
+    for part in statements(path.read_text(encoding="utf-8", errors="replace")):
+        right = part.tokens[(_assignment(part.tokens) or -1) + 1 :]
+        if len(right) > 2 and right[0].text in names and right[1].text == "(":
+            found.append([_Run(read).argument(tokens) for tokens in _split(right[2:-1])])
+    return found
 
 
 class _Run:
@@ -63,10 +87,14 @@ class _Run:
 
     def __init__(self, read: InputFile) -> None:
         self.read = read
+        self.left = _MOST_STATEMENTS
 
     def block(self, parts: list[Statement], at: int, live: bool) -> int:
         """Execute up to the `end`, `else` or `elseif` of the block; returns where that stands."""
         while at < len(parts):
+            self.left -= 1
+            if self.left < 0:
+                raise CaseError(f"{self.read.path}: more than {_MOST_STATEMENTS} statements to do")
             word = parts[at].tokens[0].text
             if word in ("end", "else", "elseif", "case", "otherwise", "catch"):
                 return at
@@ -75,9 +103,11 @@ class _Run:
             elif word == "for" and live:
                 at = self._loop(parts, at)
             elif word in _OPENERS:
+                end = _end_of(parts, at)
                 if live:
-                    self._skipped(parts[at], f"the {word} block is not carried out")
-                at = _end_of(parts, at)
+                    why = f"the {word} block is not carried out"
+                    self._unread(parts[at:end], self._skipped(parts[at], why))
+                at = end
             elif live:
                 self._statement(parts[at])
             at += 1
@@ -94,8 +124,9 @@ class _Run:
             values = np.atleast_2d(self._value(tokens[2:]))
             if values.shape[0] != 1 or values.size > _MOST_LOOPS:
                 raise NotEvaluated(f"at most {_MOST_LOOPS} numbers in a row")
-        except (NotEvaluated, TypeError) as error:
-            self._skipped(parts[at], f"the for block is not carried out ({error})")
+        except NotEvaluated as error:
+            why = f"the for block is not carried out ({error})"
+            self._unread(parts[at:end], self._skipped(parts[at], why))
             return end
         for value in values[0]:
             self._variable(tokens[0].text, [], float(value), parts[at].line)
@@ -110,9 +141,12 @@ class _Run:
             now = live and not taken and word in ("if", "elseif", "else")
             if now and word != "else":
                 try:
-                    now = bool(np.all(self._value(_condition(statement.tokens[1:]))))
+                    value = self._value(_condition(statement.tokens[1:]))
+                    with understood():
+                        now = bool(np.all(value))
                 except NotEvaluated as error:
-                    self._skipped(statement, f"condition not evaluated ({error}), taken as false")
+                    why = f"condition not evaluated ({error}), taken as false"
+                    self._unread(parts[at : _end_of(parts, at)], self._skipped(statement, why))
                     now = False
             taken = taken or now
             at = self.block(parts, at + 1, now)
@@ -125,23 +159,40 @@ class _Run:
             if statement.tokens[0].text not in _IDLE:
                 self._skipped(statement, "not carried out")
             return
-        left, right = statement.tokens[:equals], statement.tokens[equals + 1 :]
         try:
-            if (names := _several(left)) and [t.text for t in right[:2]] == ["meshgrid", "("]:
-                made = meshgrid([self._value(tokens) for tokens in _split(right[2:-1])])
-                for name, value in zip(names, made, strict=False):
-                    self._variable(name, [], value, statement.line)
-                return
-            name, path = _target(left)
-            constructor = right[0].text if right and right[0].kind == "name" else ""
-            if constructor in CONSTRUCTORS:
-                self._construct(CONSTRUCTORS[constructor], path, right, statement)
-            elif (name, _number_in(path)) in self.read.items or name in CONSTRUCTORS.values():
-                self._set(name, path, self._value(right), statement.line)
-            else:
-                self._variable(name, path, self._value(right), statement.line)
+            with understood():
+                self._assign(statement, equals)
         except NotEvaluated as error:
-            self._skipped(statement, f"not evaluated ({error})")
+            self._unread([statement], self._skipped(statement, f"not evaluated ({error})"))
+
+    def _assign(self, statement: Statement, equals: int) -> None:
+        """Carry out an assignment, its = at token `equals`."""
+        left, right = statement.tokens[:equals], statement.tokens[equals + 1 :]
+        if (names := _several(left)) and [t.text for t in right[:2]] == ["meshgrid", "("]:
+            made = meshgrid([self._value(tokens) for tokens in _split(right[2:-1])])
+            for name, value in zip(names, made, strict=False):
+                self._variable(name, [], value, statement.line)
+            return
+        name, path = _target(left)
+        constructor = right[0].text if right and right[0].kind == "name" else ""
+        if constructor in CONSTRUCTORS:
+            self._construct(CONSTRUCTORS[constructor], path, right, statement)
+        elif (name, _number_in(path)) in self.read.items or name in CONSTRUCTORS.values():
+            self._set(name, path, self._value(right), statement.line)
+        else:
+            self._variable(name, path, self._value(right), statement.line)
+
+    def _unread(self, parts: list[Statement], remark: Remark) -> None:
+        """Remember the fields of objects that statements set which are not carried out."""
+        for part in parts:
+            equals = _assignment(part.tokens)
+            try:
+                name, path = _target(part.tokens[:equals])
+                item = self.read.items.get((name, _number_in(path)))
+            except NotEvaluated:
+                continue
+            if item is not None and equals is not None:
+                item.unread.setdefault(_field_of(name, path), remark)
 
     def _construct(
         self, kind: str, path: list[str], right: tuple[Token, ...], statement: Statement
@@ -149,20 +200,27 @@ class _Run:
         number = _number_in(path)
         arguments: list[Any] = []
         for tokens in _split(right[2:-1]) if len(right) > 2 else []:
-            try:
-                arguments.append(self._value(tokens))
-            except NotEvaluated as error:
-                arguments.append(None)
-                self._skipped(statement, f"not evaluated ({error})")
-        self.read.items[kind, number] = Item(kind, number, statement.line, arguments)
+            arguments.append(self.argument(tokens))
+            if arguments[-1] is None:
+                self._skipped(statement, "an argument is not evaluated")
+        name = self.read.path.name
+        self.read.items[kind, number] = Item(kind, number, statement.line, arguments, file=name)
+
+    def argument(self, tokens: tuple[Token, ...]) -> Any:
+        """Value of an argument; None where it cannot be evaluated."""
+        try:
+            return self._value(tokens)
+        except NotEvaluated:
+            return None
 
     def _set(self, kind: str, path: list[str], value: Any, line: int) -> None:
         number, rest = _number_in(path), path[1:] if path and path[0][0] == "(" else path
-        item = self.read.items.setdefault((kind, number), Item(kind, number, line))
+        new = Item(kind, number, line, file=self.read.path.name)
+        item = self.read.items.setdefault((kind, number), new)
         fields = [part for part in rest if part[0] != "("]
         if not fields:
             raise NotEvaluated(f"{kind} is not made by its class")
-        name = new_name(kind, ".".join(fields))
+        name = _field_of(kind, path)
         if rest[-1][0] == "(":
             old = item.entries.get(name)
             value = with_elements(None if old is None else old.value, rest[-1], value)
@@ -203,9 +261,14 @@ class _Run:
             raise NotEvaluated(missing)
         return entry.value if index is None else elements(entry.value, index)
 
-    def _skipped(self, statement: Statement, why: str) -> None:
+    def _skipped(self, statement: Statement, why: str) -> Remark:
         text = statement.text if len(statement.text) < 70 else statement.text[:67] + "..."
-        self.read.remarks.left_out(self.read.place(statement.line), f"{text}: {why}")
+        return self.read.remarks.left_out(self.read.place(statement.line), f"{text}: {why}")
+
+
+def _field_of(kind: str, path: list[str]) -> str:
+    """Name of a field without indices, as the present version of WEC-Sim has it."""
+    return new_name(kind, ".".join(part for part in path if part[0] != "("))
 
 
 def _condition(tokens: tuple[Token, ...]) -> tuple[Token, ...]:
@@ -274,7 +337,7 @@ def _number_in(path: list[str]) -> int:
     """Number of an object from the first index; 1 where there is none."""
     if path and path[0][0] == "(":
         inside = path[0].strip("()").split(",")[-1]
-        if not inside.isdigit():
+        if not inside.isdecimal() or len(inside) > 9:
             raise NotEvaluated(f"the index {path[0]} is no number")
         return int(inside)
     return 1

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
+
+import numpy as np
 
 from hydrodae.errors import HydrodaeError
 
@@ -18,6 +22,27 @@ _TOKEN = re.compile(
 
 class NotEvaluated(HydrodaeError):
     """An expression that is not understood here."""
+
+
+@contextmanager
+def understood() -> Iterator[None]:
+    """Turn what Python and NumPy raise at values that do not fit into NotEvaluated."""
+    try:
+        with np.errstate(all="ignore"):
+            yield
+    except HydrodaeError:
+        raise
+    except RecursionError:
+        raise NotEvaluated("it is nested too deeply") from None
+    except (
+        ArithmeticError,
+        AttributeError,
+        LookupError,
+        MemoryError,
+        TypeError,
+        ValueError,
+    ) as why:
+        raise NotEvaluated(f"the values do not fit: {why}") from None
 
 
 class Quoted(str):

@@ -9,11 +9,13 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from hydrodae.support.arrays import Array
-from hydrodae.wecsim.m_text import NotEvaluated, Quoted, Token
+from hydrodae.wecsim.m_text import NotEvaluated, Quoted, Token, understood
 
 #: A number or an array of them (two axes), a string, or a list (of a cell array).
 Value: TypeAlias = "float | str | Array | list[Any]"
 
+#: Most numbers of an array, 8 MB; what input files hold has thousands.
+LARGEST = 1_000_000
 _CONSTANTS = {
     "pi": math.pi,
     "Inf": math.inf,
@@ -47,16 +49,13 @@ _ELEMENTWISE: dict[str, Callable[[Any], Any]] = {
     "sinh": np.sinh,
     "cosh": np.cosh,
     "tanh": np.tanh,
-    "double": lambda x: x,
-    "string": lambda x: x,
-    "char": lambda x: x,
 }
 _OPERATIONS: dict[str, Callable[[Any, Any], Any]] = {
     "+": lambda a, b: a + b,
     "-": lambda a, b: a - b,
     ".*": lambda a, b: a * b,
-    "./": lambda a, b: a / b,
-    ".^": lambda a, b: a**b,
+    "./": np.true_divide,
+    ".^": np.power,
     "==": lambda a, b: a == b,
     "~=": lambda a, b: a != b,
     "<": lambda a, b: a < b,
@@ -74,6 +73,26 @@ _LEVELS = (
     ("+", "-"),
     ("*", "/", ".*", "./"),
 )
+
+
+def sized(*shape: float) -> None:
+    """Refuse an array of more numbers than `LARGEST`.
+
+    Raises
+    ------
+    NotEvaluated
+        It has more, or its shape is not of whole numbers.
+    """
+    count = math.prod(max(float(size), 0.0) for size in shape)
+    if not count <= LARGEST:
+        raise NotEvaluated(f"an array of {count:.3g} numbers; at most {LARGEST} are read")
+
+
+def _real(value: Any, *given: Any) -> Any:
+    """A result; without a real value where those it was made of have one, it is complex."""
+    if np.isnan(value).any() and not any(np.isnan(number).any() for number in given):
+        raise NotEvaluated("the result is complex, or has no value")
+    return value
 
 
 def plain(value: Any) -> Any:
@@ -104,10 +123,11 @@ class Expression:
 
     def value(self) -> Any:
         """Evaluate all; whatever is left over is not understood."""
-        result = self._level(0)
-        if self.at < len(self.tokens):
-            raise NotEvaluated(f"{self.tokens[self.at].text!r} is not understood here")
-        return plain(result)
+        with understood():
+            result = self._level(0)
+            if self.at < len(self.tokens):
+                raise NotEvaluated(f"{self.tokens[self.at].text!r} is not understood here")
+            return plain(result)
 
     def _peek(self) -> Token | None:
         return self.tokens[self.at] if self.at < len(self.tokens) else None
@@ -144,21 +164,23 @@ class Expression:
         step, last = 1.0, second
         if self._take(":"):
             step, last = second, self._level(4)
-        count = math.floor((last - first) / step + 1e-10) + 1
-        return (first + step * np.arange(max(count, 0)))[None, :]
+        first, step, last = (float(_number(value)) for value in (first, step, last))
+        length = (last - first) / step + 1e-10 if step else -1.0
+        sized(length)
+        return (first + step * np.arange(max(math.floor(length) + 1, 0)))[None, :]
 
     def _unary(self) -> Any:
         if self._take("-"):
-            return -_number(self._unary())
+            return -plain(_number(self._unary()))
         if self._take("+"):
             return self._unary()
         if self._take("~") or self._take("!"):
-            return not np.all(self._unary())
+            return float(not np.all(self._unary()))
         base = self._postfix()
         token = self._peek()
         if token is not None and token.text in ("^", ".^") and token.kind == "operator":
             self.at += 1
-            return _number(base) ** _number(self._unary())
+            return _combine(token.text, base, self._unary())
         return base
 
     def _postfix(self) -> Any:
@@ -176,7 +198,7 @@ class Expression:
             raise NotEvaluated("the expression ends too early")
         self.at += 1
         if token.kind == "number":
-            return float(token.text.lower().replace("d", "e"))
+            return np.float64(token.text.lower().replace("d", "e"))
         if token.kind == "string":
             return token.text
         if token.kind == "name":
@@ -255,15 +277,21 @@ def _matrix(rows: list[list[Any]]) -> Any:
         return [value for row in rows for value in row]
     if any(isinstance(value, str) for row in rows for value in row):
         if len(rows) == 1 and all(isinstance(value, str) for value in rows[0]):
-            return "".join(rows[0])
+            return _joined(rows[0])
         raise NotEvaluated("strings and numbers in one array")
     try:
         parts = [[np.atleast_2d(_number(value)) for value in row] for row in rows]
         parts = [[part for part in row if part.size] for row in parts]
+        sized(sum(part.size for row in parts for part in row))
         blocks = [np.hstack(row) for row in parts if row]
         return np.vstack(blocks).astype(float) if blocks else np.zeros((0, 0))
     except ValueError:
         raise NotEvaluated("the rows of an array differ in length") from None
+
+
+def _joined(texts: list[Any]) -> str:
+    sized(sum(len(text) for text in texts))
+    return "".join(texts)
 
 
 def _index(value: Any) -> str:
@@ -282,20 +310,21 @@ def _combine(operator: str, left: Any, right: Any) -> Any:
         if operator == "==":
             return left == right
         if operator == "+" and isinstance(left, str) and isinstance(right, str):
-            return left + right
+            return _joined([left, right])
         raise NotEvaluated(f"{operator!r} of strings")
-    left, right = _number(left), _number(right)
-    scalar = np.size(left) == 1 or np.size(right) == 1
-    if operator in "*/" and scalar:
+    left, right = plain(_number(left)), plain(_number(right))
+    scalars = (np.size(left) == 1) + (np.size(right) == 1)
+    if scalars >= (2 if operator == "^" else 1) and operator in "*/^":
         operator = f".{operator}"
-    try:
-        if operator == "*":
-            return np.atleast_2d(left) @ np.atleast_2d(right)
-        operator = {"!=": "~=", "&": "&&", "|": "||"}.get(operator, operator)
-        with np.errstate(all="ignore"):
-            return _OPERATIONS[operator](left, right)
-    except (ValueError, KeyError, ZeroDivisionError) as error:
-        raise NotEvaluated(f"{operator!r} of these values ({error})") from None
+    if operator == "*":
+        product = [np.atleast_2d(value) for value in (left, right)]
+        sized(product[0].shape[0], product[1].shape[1], product[0].shape[1])
+        return product[0] @ product[1]
+    operator = {"!=": "~=", "&": "&&", "|": "||"}.get(operator, operator)
+    if operator not in _OPERATIONS:
+        raise NotEvaluated(f"{operator!r} of matrices")
+    sized(*np.broadcast_shapes(np.shape(left), np.shape(right)))
+    return plain(_real(_OPERATIONS[operator](np.asarray(left), right), left, right))
 
 
 def _reshaped(array: Any, sizes: list[Any]) -> Any:
@@ -305,28 +334,35 @@ def _reshaped(array: Any, sizes: list[Any]) -> Any:
         sides.append(-1 if np.size(size) == 0 else int(_number(size)))
     if len(sides) != 2:
         raise NotEvaluated("reshape to two axes is known here")
-    try:
-        return np.reshape(array, sides, order="F")
-    except ValueError as error:
-        raise NotEvaluated(f"reshape ({error})") from None
+    return np.reshape(array, sides, order="F")
+
+
+def _square(sizes: list[Any]) -> tuple[int, int]:
+    """Shape by none, one or two sizes."""
+    shape = [float(_number(size)) for size in sizes or [1.0]]
+    sized(shape[0], shape[-1])
+    return max(int(shape[0]), 0), max(int(shape[-1]), 0)
 
 
 def _function(name: str, values: list[Any]) -> Any:
     """Value of a function of MATLAB that is known here."""
     if name in ("zeros", "ones") and len(values) <= 2:
-        shape = [int(_number(value)) for value in values] or [1]
-        made = np.full(tuple(shape) if len(shape) == 2 else (shape[0], shape[0]), 0.0)
-        return made + (name == "ones")
+        return np.full(_square(values), float(name == "ones"))
     if name == "eye" and len(values) <= 2:
-        sizes = [int(_number(value)) for value in values or [1.0]]
-        return np.eye(sizes[0], sizes[-1])
+        return np.eye(*_square(values))
+    if name in ("double", "string", "char") and len(values) == 1:
+        return values[0]
     if name in _ELEMENTWISE and len(values) == 1:
-        return _ELEMENTWISE[name](values[0])
+        value = plain(_number(values[0]))
+        return _real(_ELEMENTWISE[name](value), value)
     if name == "diag" and len(values) == 1:
         array = np.atleast_2d(_number(values[0]))
+        sized(max(array.shape), max(array.shape))
         return np.diag(array.ravel()) if 1 in array.shape else np.diag(array)[:, None]
     if name == "linspace" and len(values) in (2, 3):
-        return np.linspace(values[0], values[1], int(values[2]) if values[2:] else 100)[None, :]
+        count = values[2] if values[2:] else 100.0
+        sized(count)
+        return np.linspace(values[0], values[1], int(count))[None, :]
     if name in ("max", "min") and len(values) in (1, 2):
         function = np.max if name == "max" else np.min
         return function(np.hstack([np.ravel(_number(value)) for value in values]))
@@ -336,9 +372,9 @@ def _function(name: str, values: list[Any]) -> Any:
     if name == "reshape" and len(values) in (2, 3):
         return _reshaped(_number(values[0]), values[1:])
     if name == "fullfile" and values and all(isinstance(value, str) for value in values):
-        return "/".join(values)
+        return _joined([part for value in values for part in ("/", value)][1:])
     if name in ("strcat", "append") and all(isinstance(value, str) for value in values):
-        return "".join(values)
+        return _joined(values)
     if name == "struct" and not values:
         return []
     if name == "struct" and len(values) % 2 == 0:

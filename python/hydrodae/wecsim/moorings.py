@@ -21,10 +21,11 @@ def add_mooring(
     text: CaseText, block: Block, place: str, body: int | None, bodies: Bodies, read: InputFile
 ) -> None:
     """Add the forces of a mooring block; what is not read goes to the remarks."""
-    match = re.search(r"mooring\((\d+)\)", block.parameters.get("mooring", "mooring(1)"))
+    match = re.search(r"mooring\((\d{1,9})\)", block.parameters.get("mooring", "mooring(1)"))
     item = read.get("mooring", int(match.group(1)) if match else 1)
     if item is None or body is None:
-        read.remarks.left_out(place, "no mooring in the input file" if body else "holds no body")
+        why = "holds no body" if body is None else f"no mooring in {read.path.name}"
+        read.remarks.left_out(place, why, "mooring")
         return
     if block.kind == "MooringMatrix":
         _matrix(text, item, body, bodies)
@@ -35,6 +36,7 @@ def add_mooring(
         read.remarks.left_out(
             place,
             f"{item.title}: {block.kind}; `catenary` and `line` are the moorings with lines here",
+            "mooring",
         )
 
 
@@ -51,7 +53,7 @@ def _matrix(text: CaseText, item: Item, body: int, bodies: Bodies) -> None:
     """A matrix about a point of the body, moved to its centre of gravity."""
     stiffness, damping = _six(item.get("matrix.stiffness")), _six(item.get("matrix.damping"))
     pretension = item.vector("matrix.preTension", np.zeros(6))
-    pretension = np.pad(pretension, (0, max(6 - pretension.size, 0)))
+    pretension = np.pad(pretension, (0, max(6 - pretension.size, 0)))[:6]
     point = item.vector("location", [0.0, 0.0, 0.0])
     offset = item.vector("initial.displacement", [0.0, 0.0, 0.0])
     item.used |= {"initial.axis", "initial.angle"}
@@ -81,7 +83,7 @@ def _moordyn(text: CaseText, item: Item, body: int, bodies: Bodies, read: InputF
     place = read.place(item.line)
     path = read.path.parent / stated
     if not path.is_file():
-        read.remarks.left_out(place, f"{item.title}: {path} is not there")
+        read.remarks.left_out(place, f"{item.title}: {path} is not there", "mooring")
         return
     shift, _ = bodies.start(body)
     origin = item.vector("location", np.zeros(3)) + item.vector("initial.displacement", np.zeros(3))
@@ -91,7 +93,7 @@ def _moordyn(text: CaseText, item: Item, body: int, bodies: Bodies, read: InputF
         at = {key: list(origin - shift) for key in coupled or [""]}
         made = read_moordyn(path, body=name, at=at, bodies=dict.fromkeys(coupled or ["1"], name))
     except CaseError as error:
-        read.remarks.left_out(place, f"{item.title}: {error}")
+        read.remarks.left_out(place, f"{item.title}: {error}", "mooring")
         return
     text.lines += ["", *made.to_toml().rstrip().splitlines()]
     for note in made.notes:

@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from hydrodae.wecsim.remarks import Remarks
+from hydrodae.errors import CaseError
+from hydrodae.wecsim.remarks import Remark, Remarks
 
 
 @dataclass
@@ -35,6 +36,10 @@ class Item:
         By dotted field, such as ``quadDrag.cd``.
     used : set of str
         Fields that an import asked for.
+    unread : dict of Remark
+        Fields whose values could not be evaluated.
+    file : str
+        Name of the input file.
     """
 
     kind: str
@@ -43,6 +48,8 @@ class Item:
     arguments: list[Any] = field(default_factory=list)
     entries: dict[str, Entry] = field(default_factory=dict)
     used: set[str] = field(default_factory=set)
+    unread: dict[str, Remark] = field(default_factory=dict)
+    file: str = ""
 
     @property
     def title(self) -> str:
@@ -66,12 +73,46 @@ class Item:
         array = np.ravel(value) if isinstance(value, float | np.ndarray) else np.zeros(0)
         return float(array[0]) if array.size else default
 
+    def whole(self, name: str, default: int = 0) -> int:
+        """A field that is a whole number.
+
+        Raises
+        ------
+        CaseError
+            It is another number.
+        """
+        value = self.number_of(name, float(default))
+        if not value.is_integer():
+            raise CaseError(
+                f"{self.file}:{self.line_of(name)}: {self.title}.{name}: expected a whole number, "
+                f"got {value:g}"
+            )
+        return int(value)
+
     def vector(self, name: str, default: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
-        """A field that is numbers, as one axis."""
+        """A field that is numbers, as one axis.
+
+        Raises
+        ------
+        CaseError
+            The default has three numbers, and the field another count.
+        """
         value = self.get(name)
         if not isinstance(value, float | np.ndarray) or np.size(value) == 0:
             value = default
-        return np.array(value, dtype=float).ravel()
+        found = np.array(value, dtype=float).ravel()
+        if np.size(default) == 3 != found.size:
+            raise CaseError(
+                f"{self.file}:{self.line_of(name)}: {self.title}.{name}: expected 3 numbers, "
+                f"got {found.size}"
+            )
+        return found
+
+    def matrix(self, name: str) -> np.ndarray[Any, np.dtype[np.float64]]:
+        """A field that is numbers, as rows; one zero where there are none."""
+        value = self.get(name)
+        good = isinstance(value, float | np.ndarray) and np.size(value) > 0
+        return np.atleast_2d(np.asarray(value if good else 0.0, dtype=float))
 
     def line_of(self, name: str) -> int:
         """Line of a field, or of the constructor."""

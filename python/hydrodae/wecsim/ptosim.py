@@ -281,6 +281,7 @@ def _circuit(
         read.remarks.left_out(
             read.place(item.line),
             f"{item.title}: no generator whose controller has a constant set speed; no flow",
+            "pto",
         )
     text.table("[[force]]", hydraulic, f"{sides['high'].title}, {sides['low'].title}: {note}")
     if controller:

@@ -103,7 +103,7 @@ def _upstream(first: Block, stop: Block) -> Iterator[Block]:
 
 
 def _item(block: Block, read: InputFile) -> Item:
-    match = re.search(r"\bptoSim\((\d+)\)", block.parameters.get("ptoSim", ""))
+    match = re.search(r"\bptoSim\((\d{1,9})\)", block.parameters.get("ptoSim", ""))
     item = read.get("ptoSim", int(match.group(1)) if match else 1)
     if item is None:
         raise NotEvaluated(f"{block.parameters.get('ptoSim')} is not in {read.path.name}")

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from hydrodae.errors import CaseError
 
-@dataclass(frozen=True)
+
+@dataclass
 class Remark:
     """One thing to know about an import.
 
@@ -17,11 +20,15 @@ class Remark:
         File and line, or model and block.
     text : str
         What it is.
+    part : str
+        What the device is without, as `accept` names it: "waves", "pto", "joint", "mooring",
+        "cable", "body", "modes", "controller", "force", "current" or "wind"; empty for the rest.
     """
 
     kind: str
     place: str
     text: str
+    part: str = ""
 
     def __str__(self) -> str:
         return f"{self.place}: {self.text}"
@@ -33,9 +40,9 @@ class Remarks:
 
     items: list[Remark] = field(default_factory=list)
 
-    def left_out(self, place: str, text: str) -> None:
-        """Note what the case does not hold."""
-        self._add("left out", place, text)
+    def left_out(self, place: str, text: str, part: str = "") -> Remark:
+        """Note what the case does not hold; `part` as in `Remark`."""
+        return self._add("left out", place, text, part)
 
     def assumed(self, place: str, text: str) -> None:
         """Note a decision."""
@@ -49,7 +56,32 @@ class Remarks:
         """Those of one kind."""
         return [item for item in self.items if item.kind == kind]
 
-    def _add(self, kind: str, place: str, text: str) -> None:
-        remark = Remark(kind, place, text)
+    def check(self, accepted: Sequence[str]) -> None:
+        """Refuse parts of the device that are missing and not accepted.
+
+        Raises
+        ------
+        CaseError
+            A part is missing, or `accepted` names one that is not.
+        """
+        missing: dict[str, list[str]] = {}
+        for remark in self.of("left out"):
+            if remark.part:
+                missing.setdefault(remark.part, []).append(str(remark))
+        for word in accepted:
+            if word not in missing:
+                found = ", ".join(missing) or "nothing"
+                raise CaseError(f"--accept {word!r}: this is not missing (missing: {found})")
+        left = {part: found for part, found in missing.items() if part not in accepted}
+        if left:
+            told = "; ".join(f"no {part} ({', '.join(found)})" for part, found in left.items())
+            options = " ".join(f"--accept {part}" for part in left)
+            raise CaseError(
+                f"the case lacks parts of its source: {told}; {options} writes it anyway"
+            )
+
+    def _add(self, kind: str, place: str, text: str, part: str = "") -> Remark:
+        remark = Remark(kind, place, text, part)
         if remark not in self.items:
             self.items.append(remark)
+        return self.items[self.items.index(remark)]

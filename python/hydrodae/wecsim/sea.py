@@ -59,7 +59,9 @@ def add_waves(text: CaseText, read: InputFile, folder: Path, omega: Array | None
     """
     all_waves = read.of("waves")
     if not all_waves:
-        read.remarks.left_out(read.path.name, "there is no waves = waveClass(...): still water")
+        read.remarks.left_out(
+            read.path.name, "there is no waves = waveClass(...): still water", "waves"
+        )
     simu = read.get("simu")
     ramp = 100.0 if simu is None else simu.number_of("rampTime", 100.0)
     tables: list[tuple[dict[str, Any], str]] = []
@@ -100,7 +102,8 @@ def _tables(
         _only_one(waves, "direction", heading, read)
         height, period = waves.number_of("height"), waves.number_of("period")
         if not period > 0.0:
-            read.remarks.left_out(place, "regular waves without a height and a period that is read")
+            text = "regular waves without a height and a period that is read"
+            read.remarks.left_out(place, text, "waves")
             return []
         keys = first | {
             "type": "regular",
@@ -124,7 +127,7 @@ def _tables(
                 return _with_phases(waves, read, table, first["name"], omega)
             spectrum = _imported(table)
         return [] if spectrum is None else _directions(waves, read, first, spectrum)
-    read.remarks.left_out(place, f"waves of type {kind!r}")
+    read.remarks.left_out(place, f"waves of type {kind!r}", "waves")
     return []
 
 
@@ -166,7 +169,7 @@ def _formula(waves: Item, read: InputFile) -> dict[str, Any] | None:
             read.remarks.assumed(read.place(waves.line), text)
         else:
             text = "waves whose height or period was not read: still water"
-            read.remarks.left_out(read.place(waves.line), text)
+            read.remarks.left_out(read.place(waves.line), text, "waves")
         return None
     if spectrum in ("PM", "BS"):
         return {"type": "bretschneider"} | keys
@@ -176,9 +179,8 @@ def _formula(waves: Item, read: InputFile) -> dict[str, Any] | None:
             ratio = period / math.sqrt(height) if height > 0.0 else 5.0
             gamma = min(max(math.exp(5.75 - 1.15 * ratio), 1.0), 5.0)
         return {"type": "jonswap"} | keys | {"gamma": gamma}
-    read.remarks.left_out(
-        read.place(waves.line_of("spectrumType")), f"spectrum {spectrum!r}: PM, JS and BS are read"
-    )
+    place = read.place(waves.line_of("spectrumType"))
+    read.remarks.left_out(place, f"spectrum {spectrum!r}: PM, JS and BS are read", "waves")
     return None
 
 
@@ -202,7 +204,7 @@ def _with_phases(
     try:
         found = read_components(Table(table.path, units, table.values[held]))
     except CaseError as error:
-        read.remarks.left_out(place, str(error))
+        read.remarks.left_out(place, str(error), "waves")
         return []
     lost = int(np.sum(~held & (rate > 0.0) & (table.values[:, 1] > 0.0)))
     if lost:
@@ -243,12 +245,12 @@ def _directions(
         read.remarks.assumed(
             read.place(waves.line_of("direction")), "as many spreads as directions: equal shares"
         )
-    seed = int(waves.number_of("phaseSeed", 0.0)) or 1
+    seed = waves.whole("phaseSeed") or 1
     option = waves.text("bem.option", "EqualEnergy")
     extra: dict[str, Any] = {"seed": seed}
-    count = waves.number_of("bem.count", 0.0)
-    if count > 1.0:
-        extra["components"] = int(count)
+    count = waves.whole("bem.count")
+    if count > 1:
+        extra["components"] = count
     elif option != "EqualEnergy":
         extra["components"] = 1000
     if option != "EqualEnergy":
@@ -290,7 +292,7 @@ def _elevation(
     try:
         record = read_elevation(table, time=table.names[0], column=table.names[1])
     except CaseError as error:
-        read.remarks.left_out(place, str(error))
+        read.remarks.left_out(place, str(error), "waves")
         return []
     for note in record.notes:
         read.remarks.assumed(place, note)
@@ -317,23 +319,23 @@ def _data(waves: Item, field: str, read: InputFile) -> Table | None:
         if len(table.names) < 2 or len(table.values) < 4:
             raise CaseError("expected two columns and four rows, or more")
     except (OSError, CaseError) as error:
-        read.remarks.left_out(place, f"{waves.title}.{field}: {name!r} cannot be read ({error})")
+        text = f"{waves.title}.{field}: {name!r} cannot be read ({error})"
+        read.remarks.left_out(place, text, "waves")
         return None
     return table
 
 
 def _current(all_waves: list[Item], read: InputFile) -> Array | None:
     for waves in all_waves:
-        option = int(waves.number_of("current.option", 3.0))
+        option = waves.whole("current.option", 3)
         speed = waves.number_of("current.speed")
         heading = math.radians(waves.number_of("current.direction"))
         if option == 0 and speed:
             return np.array([speed * math.cos(heading), speed * math.sin(heading), 0.0])
         waves.used.add("current.depth")
         if option in (1, 2) and speed:
-            read.remarks.left_out(
-                read.place(waves.line_of("current.option")), "current that varies with the depth"
-            )
+            place = read.place(waves.line_of("current.option"))
+            read.remarks.left_out(place, "current that varies with the depth", "current")
     return None
 
 

@@ -89,8 +89,15 @@ class _Tracer:
 
     def __init__(self, actuator: Block, element: float, read: InputFile) -> None:
         self.actuator, self.element, self.read = actuator, element, read
+        self.found: dict[tuple[int, str], dict[str, float]] = {}
 
     def form(self, block: Block, port: str, depth: int) -> dict[str, float]:
+        key = id(block), port
+        if key not in self.found:
+            self.found[key] = self._form(block, port, depth)
+        return self.found[key]
+
+    def _form(self, block: Block, port: str, depth: int) -> dict[str, float]:
         if depth > _DEEPEST:
             raise NotEvaluated("its signals run in a loop")
         kind = block.kind
@@ -126,8 +133,8 @@ class _Tracer:
 
     def sum(self, block: Block, depth: int) -> dict[str, float]:
         signs = block.parameters.get("Inputs", "++").replace("|", "")
-        if signs.isdigit():
-            signs = "+" * int(signs)
+        if signs.isdecimal():
+            signs = "+" * min(int(signs[:9]), len(block.drivers) + 1)
         total: dict[str, float] = {}
         for number, sign in enumerate(signs, 1):
             for name, value in self.input(block, number, depth).items():
@@ -150,7 +157,10 @@ class _Tracer:
         if driver is None or driver[0] is not self.actuator:
             raise NotEvaluated(f"block {block.name!r} reads something else than the response")
         names = block.parameters.get("OutputSignals", "").split(",")
-        name = names[int(port.rpartition(":")[2]) - 1].strip()
+        number = port.rpartition(":")[2]
+        if not number.isdecimal() or not 0 < int(number[:9]) <= len(names):
+            raise NotEvaluated(f"block {block.name!r} has no output {number}")
+        name = names[int(number) - 1].strip()
         if name not in ("position", "velocity"):
             raise NotEvaluated(f"block {block.name!r} reads {name!r}")
         return {f"{name} of six": 1.0}

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import zipfile
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from xml.etree import ElementTree
 
 from hydrodae.errors import CaseError
-
-#: Largest file within a model that is read [bytes]; those of WEC-Sim are below 2 MB.
-LARGEST = 200_000_000
+from hydrodae.wecsim.archive import XmlArchive, opened
 
 #: Joints of Simscape, and the constraint of WEC-Sim that each is the core of.
 _JOINTS = {
@@ -84,16 +81,16 @@ def read_slx(path: Path) -> Model:
     CaseError
         There is no such file, or it is no .slx file (an old .mdl file: save it as .slx).
     """
+    hint = "; an .mdl file? save it as .slx" if path.suffix == ".mdl" else ""
     try:
-        with zipfile.ZipFile(path) as archive:
+        with opened(path, f".slx file of Simulink{hint}") as archive:
             return _Reader(path, archive).run()
-    except FileNotFoundError:
-        raise CaseError(f"{path}: there is no such file") from None
-    except (zipfile.BadZipFile, OSError) as error:
-        why = "an .mdl file? save it as .slx in Simulink" if path.suffix == ".mdl" else str(error)
-        raise CaseError(f"{path}: no .slx file of Simulink ({why})") from None
-    except (ElementTree.ParseError, KeyError, ValueError) as error:
-        raise CaseError(f"{path}: its XML is damaged ({error})") from None
+    except CaseError:
+        raise
+    except RecursionError:
+        raise CaseError(f"{path}: its subsystems are nested too deeply") from None
+    except (LookupError, ValueError) as error:
+        raise CaseError(f"{path}: its blocks are damaged ({error})") from None
 
 
 def _values(element: ElementTree.Element) -> dict[str, str]:
@@ -101,7 +98,7 @@ def _values(element: ElementTree.Element) -> dict[str, str]:
 
 
 class _Reader:
-    def __init__(self, path: Path, archive: zipfile.ZipFile) -> None:
+    def __init__(self, path: Path, archive: XmlArchive) -> None:
         self.path, self.archive = path, archive
         self.parents: dict[Port, Port] = {}
         self.blocks: dict[tuple[str, str], Block] = {}
@@ -109,7 +106,7 @@ class _Reader:
         self.signals: list[tuple[Port, Port]] = []
 
     def run(self) -> Model:
-        root = self._xml("simulink/blockdiagram.xml")
+        root = self.archive.xml("simulink/blockdiagram.xml")
         model = root.find("Model")
         model = root.find("Library") if model is None else model
         system = None if model is None else model.find("System")
@@ -119,21 +116,17 @@ class _Reader:
         self._close()
         return Model(self.path, list(self.blocks.values()))
 
-    def _xml(self, name: str) -> ElementTree.Element:
-        info = self.archive.getinfo(name)
-        if info.file_size > LARGEST:
-            raise CaseError(f"{self.path}: {name} is too large ({info.file_size} bytes)")
-        text = self.archive.read(info)
-        if b"<!DOCTYPE" in text or b"<!ENTITY" in text:
-            raise CaseError(f"{self.path}: {name} declares entities, which no model does")
-        return ElementTree.fromstring(text)
+    def _opened(self, system: ElementTree.Element, folder: str) -> tuple[ElementTree.Element, str]:
+        """A system from the file that it refers to, if it does, and the folder of that file."""
+        reference = system.get("Ref")
+        if reference is None:
+            return system, folder
+        home = folder if folder.endswith("systems") else f"{folder}/systems"
+        return self.archive.xml(str(PurePosixPath(home) / f"{reference}.xml")), home
 
     def _system(self, system: ElementTree.Element, path: str, names: str, folder: str) -> None:
         """Enter a system; path: block numbers of the subsystems, names: their names."""
-        reference = system.get("Ref")
-        if reference is not None:
-            home = folder if folder.endswith("systems") else f"{folder}/systems"
-            system, folder = self._xml(str(PurePosixPath(home) / f"{reference}.xml")), home
+        system, folder = self._opened(system, folder)
         inside: list[tuple[str, str, str]] = []
         for element in system.findall("Block"):
             values = _values(element)
@@ -184,9 +177,7 @@ class _Reader:
 
     def _inputs(self, system: ElementTree.Element, folder: str) -> list[str]:
         """Names of the inputs of a subsystem, in their order."""
-        if (reference := system.get("Ref")) is not None:
-            home = folder if folder.endswith("systems") else f"{folder}/systems"
-            system = self._xml(f"{home}/{reference}.xml")
+        system, _ = self._opened(system, folder)
         found = [
             (int(_values(e).get("Port", "1")), " ".join((e.get("Name") or "").split()))
             for e in system.findall("Block")
@@ -196,9 +187,7 @@ class _Reader:
 
     def _copy(self, block: Block, system: ElementTree.Element, folder: str) -> None:
         """Find what a copy of a block of WEC-Sim is by its joint, and where its ports are."""
-        if (reference := system.get("Ref")) is not None:
-            home = folder if folder.endswith("systems") else f"{folder}/systems"
-            system = self._xml(f"{home}/{reference}.xml")
+        system, _ = self._opened(system, folder)
         counts = {"left": 0, "right": 0}
         ports = [(e, _values(e)) for e in system.findall("Block")]
         ports.sort(key=lambda pair: int(pair[1].get("Port", "1") or 1))
@@ -208,7 +197,7 @@ class _Reader:
             if element.get("BlockType") == "PMIOPort":
                 side = values.get("Side", "Left").lower()
                 counts[side] += 1
-                name = (element.get("Name") or "").split()[0]
+                name = next(iter((element.get("Name") or "").split()), "")
                 block.ports[name] = f"{side[0]}conn:{counts[side]}"
             source = " ".join(values.get("SourceBlock", "").split())
             kind = _JOINTS.get(source)

@@ -34,6 +34,13 @@ class CaseText:
             if value is not None:
                 self.value(key, value)
 
+    def head(self, key: str, values: list[str]) -> None:
+        """Add a key with texts, a line each, below the title; none where there are no texts."""
+        if values:
+            lines = [f"    {to_toml(value, key)}," for value in values]
+            at = 1 + next(i for i, line in enumerate(self.lines) if line.startswith("title = "))
+            self.lines[at:at] = [f"{key} = [", *lines, "]"]
+
     def __str__(self) -> str:
         return "\n".join(self.lines) + "\n"
 

@@ -14,6 +14,19 @@ from hydrodae.wecsim.slx import Block, Model
 #: Ports of base and follower of library blocks; that of one block has them the other way round.
 _SIDES = ("lconn:1", "rconn:1")
 _SWAPPED = "Translational PTO"
+#: Part of a device, as `Remark` has it, by a word of a block, its library or its mask.
+_WORDS = {
+    "pto": "pto",
+    "cable": "cable",
+    "constraint": "joint",
+    "joint": "joint",
+    "mooring": "mooring",
+    "wind": "wind",
+    "force": "force",
+    "rigid body": "body",
+    "solid": "body",
+    "inertia": "body",
+}
 JOINTS = ("Floating (3DOF)", "Floating (6DOF)", "Rotational", "Translational", "Spherical")
 
 
@@ -96,6 +109,13 @@ def unique(name: str, taken: set[str]) -> str:
     return found
 
 
+def _part(block: Block) -> str:
+    """What a device is without, if a block is left out; empty for sensors and pictures."""
+    mask = (key for key in _WORDS if key in block.parameters)
+    where = " ".join([block.parameters.get("SourceBlock", ""), block.kind, *mask]).lower()
+    return next((part for word, part in _WORDS.items() if word in where), "")
+
+
 def find_topology(model: Model, read: InputFile) -> Topology:
     """Build the topology; what has no counterpart goes to the remarks of `read`."""
     return _Finder(model, read).run()
@@ -133,8 +153,8 @@ class _Finder:
         _set_motions(self.topology)
         return self.topology
 
-    def _left_out(self, block: Block, text: str) -> None:
-        self.read.remarks.left_out(self.model.place(block), text)
+    def _left_out(self, block: Block, text: str, part: str = "") -> None:
+        self.read.remarks.left_out(self.model.place(block), text, part)
 
     def _body(self, block: Block, taken: set[str]) -> None:
         item = self._item(block, "body")
@@ -143,10 +163,10 @@ class _Finder:
         if item.number in self.topology.names:
             raise CaseError(f"{self.model.place(block)}: a second block of {item.title}")
         if not block.nets:
-            self._left_out(block, "hangs on nothing")
+            self._left_out(block, "hangs on nothing", "body")
             return
         if block.kind == "Flex Body":
-            self._left_out(block, "generalised body modes; the body is taken as rigid")
+            self._left_out(block, "generalised body modes; the body is taken as rigid", "modes")
         name = plain_name(block.own, item.title)
         if re.fullmatch(r"rigid_body_?\d*", name):
             name = f"body{item.number}"
@@ -160,7 +180,7 @@ class _Finder:
         if kind.startswith("Mooring") or kind == "MoorDynConnection":
             net = block.nets.get("lconn:1")
             if net is None:
-                self._left_out(block, "mooring that holds nothing")
+                self._left_out(block, "mooring that holds nothing", "mooring")
             else:
                 self.topology.moorings.append((block, self._group_number(net)))
             return
@@ -168,14 +188,16 @@ class _Finder:
             return  # what its items are for, the links find out
         core = kind.partition(" PTO")[0]
         if core not in (*JOINTS, "Universal"):
-            self._left_out(block, f"{block.library.replace('WECSim_Lib_', '')} {kind}")
+            text = f"{block.library.replace('WECSim_Lib_', '')} {kind}"
+            self._left_out(block, text, _part(block))
             return
         is_pto = " PTO" in kind
         item = self._item(block, "pto" if is_pto else "constraint")
+        part = "pto" if is_pto else "joint"
         base, follower = self._sides(block)
         if item is None or base is None or follower is None:
             if item is not None:
-                self._left_out(block, f"{item.title}: one of its ends hangs on nothing")
+                self._left_out(block, f"{item.title}: one of its ends hangs on nothing", part)
             return
         if base == follower:
             self._left_out(block, f"{item.title}: joins what is welded already")
@@ -197,7 +219,9 @@ class _Finder:
         if block.kind in ("PMIOPort",) or not block.library:
             return
         if any(self._root(net) in self.topology.groups for net in block.nets.values()):
-            self._left_out(block, f"{block.library}: {block.kind}, no block of WEC-Sim")
+            self._left_out(
+                block, f"{block.library}: {block.kind}, no block of WEC-Sim", _part(block)
+            )
 
     def _prune(self) -> None:
         """Take out frames without a body that only one joint holds, and those joints."""
@@ -215,16 +239,18 @@ class _Finder:
                 del topology.groups[key]
             for link in list(topology.links):
                 if link.base in loose or link.follower in loose:
-                    self._left_out(link.block, f"{link.item.title}: carries no body")
+                    part = "pto" if link.is_pto else "joint"
+                    self._left_out(link.block, f"{link.item.title}: carries no body", part)
                     topology.links.remove(link)
             topology.moorings = [pair for pair in topology.moorings if pair[1] not in loose]
 
     def _item(self, block: Block, kind: str) -> Item | None:
-        match = re.search(rf"\b{kind}\((\d+)\)", block.parameters.get(kind, ""))
+        match = re.search(rf"\b{kind}\((\d{{1,9}})\)", block.parameters.get(kind, ""))
         number = int(match.group(1)) if match else 1
         item = self.read.get(kind, number)
         if item is None:
-            self._left_out(block, f"{kind}({number}) is not in {self.read.path.name}")
+            text = f"{kind}({number}) is not in {self.read.path.name}"
+            self._left_out(block, text, _WORDS.get(kind, kind))
         else:
             item.used.add("")
         return item

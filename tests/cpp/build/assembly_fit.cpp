@@ -139,7 +139,8 @@ TEST_CASE("velocities given to some digits are projected and told, contradiction
   CHECK(contains(message_of([&] { build::build(scene); }), "does not fit the constraints"));
 }
 
-TEST_CASE("a body moves along with the bodies that it is joined to") {
+// The mast turns about its pin as a blow to the boat would leave it: m (1 + w) + I w = 0.
+TEST_CASE("what no velocity is given for starts with the least kinetic energy") {
   model::Scene scene;
   scene.bodies = {bar("boat", {0, 0, 0}, "rigid"), bar("mast", {0, 0, 2}, "rigid")};
   scene.joints = {pin("step", "boat", "mast", {0, 0, 1})};
@@ -147,8 +148,8 @@ TEST_CASE("a body moves along with the bodies that it is joined to") {
   scene.bodies[0].initial.angular_velocity = Vector3(0, 0, 0.5);
   scene.solver.end_time = 1.0;
   const system::System s = build::build(scene);
-  CHECK((s.bodies[1].velocity - Vector3(1, 0, 0)).norm() < 1e-8);
-  CHECK((s.bodies[1].angular_velocity - Vector3(0, 0, 0.5)).norm() < 1e-8);
+  CHECK((s.bodies[1].velocity - Vector3(1.0 / 11.0, 0, 0)).norm() < 1e-8);
+  CHECK((s.bodies[1].angular_velocity - Vector3(0, -10.0 / 11.0, 0.5)).norm() < 1e-8);
 }
 
 TEST_CASE("two drives of one freedom must agree at all times") {

@@ -20,6 +20,18 @@ std::string complaint(const tests::MeshArrays& arrays) {
   return "";
 }
 
+/// Two boxes; the second with its middle and half of its edges given, and its normals reversed
+/// where `inwards`.
+tests::MeshArrays boxes(const Vector3& middle, const Vector3& half, bool inwards = false) {
+  tests::MeshArrays out = tests::box(2.0, 2.0, 2.0), other = tests::box(2.0, 2.0, 2.0);
+  for (const Vector3& v : other.vertices)
+    out.vertices.push_back(middle + half.cwiseProduct(v));
+  for (auto [a, b, c] : other.triangles)
+    out.triangles.push_back(inwards ? std::array{b + 8, a + 8, c + 8}
+                                    : std::array{a + 8, b + 8, c + 8});
+  return out;
+}
+
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
@@ -100,9 +112,42 @@ TEST_CASE("a bad mesh is refused by the name of its fault") {
   missing.triangles[2][1] = 8;
   CHECK(contains(complaint(missing), "triangle 2 "));
   tests::MeshArrays endless = tests::box(1.0, 1.0, 1.0);
-  endless.vertices[4][2] = NAN;
-  CHECK(contains(complaint(endless), "vertex 4 "));
+  for (const double far : {double(NAN), 1e308, -1e61, double(INFINITY)}) {
+    endless.vertices[4][2] = far;
+    CHECK(contains(complaint(endless), "vertex 4 "));
+  }
   CHECK(contains(complaint({}), "no triangles"));
+}
+
+TEST_CASE("no volume counts twice: shells cross, or one is inside another") {
+  const Vector3 one = Vector3::Ones();
+  for (const double size : {1e-3, 1.0, 1e3}) {
+    const auto said = [&](const Vector3& middle, const Vector3& half, bool inwards = false) {
+      tests::MeshArrays arrays = boxes(middle, half, inwards);
+      for (Vector3& v : arrays.vertices)
+        v = size * v + Vector3(3.0, 0.0, -7.0);
+      return complaint(arrays);
+    };
+    // Corner in corner, a rod through, a cross, faces in one plane, and their tessellations alike.
+    for (const auto& [middle, half] : {std::pair{Vector3(1.0, 1.0, 1.0), one},
+                                       {Vector3(0.0, 0.0, 0.0), Vector3(0.1, 0.1, 5.0)},
+                                       {Vector3(0.3, 0.2, 0.0), Vector3(3.0, 0.3, 0.3)},
+                                       {Vector3(1.0, 0.0, 0.0), one},
+                                       {Vector3(0.0, 0.0, 1.9), one}})
+      CHECK(contains(said(middle, half), "count twice"));
+    for (const bool inwards : {false, true}) {
+      CHECK(contains(said(Vector3(0.2, 0.1, 0.0), 0.5 * one, inwards), "lies inside"));
+      CHECK(contains(said(Vector3(0.0, 0.0, 0.5), 0.5 * one, inwards), "lies inside"));
+    }
+    CHECK(contains(said(Vector3(4.0, 0.0, 0.0), one, true), "point inwards"));
+    // Apart, face to face, edge to edge, and with a gap or an overlap that a tessellation leaves.
+    for (const double x : {4.0, 2.0, 2.001, 1.999})
+      for (const double y : {0.0, 0.5, 2.0})
+        CHECK(said(Vector3(x, y, 0.0), one) == "");
+    CHECK(said(Vector3(0.0, 0.0, 1.5), Vector3(0.2, 0.2, 0.5)) == ""); // a column on the deck
+  }
+  tests::MeshArrays same = boxes(Vector3::Zero(), one);
+  CHECK(contains(complaint(same), "lies inside"));
 }
 
 } // namespace hydrodae::test_hull_mesh

@@ -79,6 +79,7 @@ TEST_CASE("a wrong key is told with its place and the nearest name") {
        "water_depth"},
       {"[solver]", "[solvr]",
        "case.toml:34:2: unknown key 'solvr' in the case; did you mean 'solver'? (valid: title, "
+       "missing, "
        "environment, hydro, pose_table, sea, wave, body, mode, attachment, joint, constraint, "
        "marker, force, morison, gauge, "
        "controller, solver, "

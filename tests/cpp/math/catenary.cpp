@@ -23,7 +23,7 @@ Catenary chain(double friction = 0.0) {
 Catenary mixed() {
   Catenary line;
   line.parts = {{120.0, 1500.0, 4e8}, {80.0, 20.0, 1e7}, {60.0, 900.0, 4e8}};
-  line.loads = {3e4, -5e4};
+  line.loads = {{3e4}, {-5e4}};
   return line;
 }
 
@@ -86,7 +86,7 @@ TEST_CASE("both ends carry the weight of the line and of what hangs on it") {
 TEST_CASE("cutting a line in two changes nothing") {
   Catenary whole = chain(0.4), cut = whole;
   cut.parts = {{150.0, 1200.0, 5e7}, {90.0, 1200.0, 5e7}, {160.0, 1200.0, 5e7}};
-  cut.loads = {0.0, 0.0};
+  cut.loads = {{}, {}};
   for (const double X : {340.0, 360.0, 380.0, 392.0, 396.0, 402.0}) {
     const CatenaryHold a = hold(whole, X, 50.0), b = hold(cut, X, 50.0);
     CHECK(a.horizontal == doctest::Approx(b.horizontal).epsilon(1e-11));
@@ -110,7 +110,7 @@ TEST_CASE("clumps and buoys: every place is met, and without friction the stiffn
                             (floats ? -1.0 : 1.0) * std::pow(10.0, between(0.0, 4.0)),
                             std::pow(10.0, between(4.0, 9.0))});
       if (i > 0)
-        line.loads.push_back(line.bed ? between(0.0, 1e5) : between(-1e5, 1e5));
+        line.loads.push_back({line.bed ? between(0.0, 1e5) : between(-1e5, 1e5)});
     }
     const double L = line.length(), Z = line.bed ? between(0.0, 0.9) * L : between(-0.9, 0.9) * L,
                  X = between(0.0, 1.05) * std::sqrt(L * L - Z * Z);
@@ -140,4 +140,96 @@ TEST_CASE("the profile ends at the anchor and at the fairlead") {
 
 TEST_CASE("a fairlead below the bed has no answer") {
   CHECK(std::isnan(hold(chain(), 300.0, -1.0).horizontal));
+}
+
+TEST_CASE("at the surface: forces are derivatives of the energy, and their slopes are exact") {
+  std::mt19937 random(11);
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<>(low, high)(random);
+  };
+  int crossing = 0;
+  for (int k = 0; k < 2000; ++k) {
+    Catenary line;
+    const int parts = 1 + k % 3;
+    for (int i = 0; i < parts; ++i) {
+      const double weight = between(100.0, 2000.0);
+      line.parts.push_back({between(30.0, 200.0), weight, std::pow(10.0, between(6.0, 9.0)),
+                            weight * between(0.0, 5.0)});
+      if (i > 0) {
+        const double lift = between(0.0, 3e5);
+        line.loads.push_back({between(-1.0, 0.2) * lift, lift, between(0.5, 4.0)});
+      }
+    }
+    const double L = line.length(), Z = between(-0.9, 0.9) * L,
+                 X = between(0.1, 1.02) * std::sqrt(L * L - Z * Z),
+                 above = between(std::min(0.0, Z), std::max(0.0, Z)) + between(-5.0, 5.0);
+    const CatenaryHold at = hold(line, X, Z, above);
+    REQUIRE(std::isfinite(at.horizontal));
+    if (at.horizontal < 1.0)
+      continue;
+    ++crossing;
+    const auto stored = [&](double x, double z, double y) {
+      return energy(line, hold(line, x, z, y), x, z, y);
+    };
+    const double d = 1e-4;
+    const auto slope = [&](double dx, double dz, double dy) {
+      return (stored(X + d * dx, Z + d * dz, above + d * dy) -
+              stored(X - d * dx, Z - d * dz, above - d * dy)) /
+             (2.0 * d);
+    };
+    const double scale = 1e-5 * (at.tension() + std::abs(at.anchor_vertical)) +
+                         1e-12 * std::abs(stored(X, Z, above)) / d;
+    CAPTURE(k);
+    CHECK(std::abs(slope(1, 0, 0) - at.horizontal) < scale);
+    CHECK(std::abs(slope(0, 1, 1) - at.vertical) < scale);         // the fairlead goes up
+    CHECK(std::abs(slope(0, -1, 0) + at.anchor_vertical) < scale); // the anchor goes up
+    const CatenaryHold up = hold(line, X, Z - d, above), down = hold(line, X, Z + d, above),
+                       b_up = hold(line, X, Z + d, above + d),
+                       b_down = hold(line, X, Z - d, above - d);
+    const double K = 1e-4 * (std::abs(at.stiffness(1, 1)) + std::abs(at.by_anchor[1]) +
+                             std::abs(at.stiffness(0, 0)));
+    CHECK(std::abs((down.anchor_vertical - up.anchor_vertical) / (2.0 * d) - at.anchor_stiffness) <
+          K);
+    CHECK(std::abs((down.vertical - up.vertical) / (2.0 * d) - at.by_anchor[1]) < K);
+    CHECK(std::abs((down.horizontal - up.horizontal) / (2.0 * d) - at.by_anchor[0]) < K);
+    CHECK(std::abs((b_up.vertical - b_down.vertical) / (2.0 * d) - at.stiffness(1, 1)) < K);
+    CHECK(std::abs((b_up.anchor_vertical - b_down.anchor_vertical) / (2.0 * d) - at.by_anchor[1]) <
+          K);
+    CHECK(std::abs(at.stiffness(0, 1) - at.stiffness(1, 0)) < K);
+  }
+  CHECK(crossing > 1000);
+}
+
+TEST_CASE("cut at the surface, a line on a bed is one of two weights") {
+  for (const double friction : {0.0, 0.7})
+    for (const double X : {330.0, 370.0, 385.0, 393.0}) {
+      Catenary line = chain(friction);
+      line.parts[0].buoyancy = 900.0;
+      const double above = 12.0;
+      const CatenaryHold found = hold(line, X, 50.0, above);
+      const CatenaryReach at = reach(line, std::max(found.horizontal, 1e-3), found.vertical, above);
+      double low = 0.0, high = 400.0; // unstretched length below the surface
+      for (int k = 0; k < 200; ++k) {
+        const double s = 0.5 * (low + high);
+        (profile(line, found, X, std::array{s}, above)[0].z < 50.0 - above ? low : high) = s;
+      }
+      Catenary cut = chain(friction);
+      cut.parts = {{low, 1200.0, 5e7}, {400.0 - low, 2100.0, 5e7}};
+      cut.loads = {{}};
+      const CatenaryHold same = hold(cut, X, 50.0);
+      CHECK(found.horizontal == doctest::Approx(same.horizontal).epsilon(1e-9));
+      CHECK(found.vertical == doctest::Approx(same.vertical).epsilon(1e-9));
+      CHECK(found.anchor_horizontal == doctest::Approx(same.anchor_horizontal).epsilon(1e-8));
+      CHECK(at.on_bed == doctest::Approx(same.on_bed).epsilon(1e-6));
+      const double d = 1e-4;
+      const CatenaryHold a = hold(line, X - d, 50.0, above), b = hold(line, X + d, 50.0, above),
+                         u = hold(line, X, 50.0 - d, above - d),
+                         v = hold(line, X, 50.0 + d, above + d);
+      CHECK((b.vertical - a.vertical) / (2.0 * d) ==
+            doctest::Approx(found.stiffness(1, 0)).epsilon(1e-5));
+      CHECK((v.vertical - u.vertical) / (2.0 * d) ==
+            doctest::Approx(found.stiffness(1, 1)).epsilon(1e-5));
+      CHECK((v.horizontal - u.horizontal) / (2.0 * d) ==
+            doctest::Approx(found.stiffness(0, 1)).epsilon(1e-5));
+    }
 }

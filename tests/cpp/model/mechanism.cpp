@@ -152,10 +152,10 @@ TEST_CASE("a path says what keeps it from being one") {
   CHECK(flaw({{0, 0, 0}, {1, 0, 0}, {0.2, 0, 0.3}}).find("turns by more than 60 degrees") !=
         std::string::npos);
   std::vector<Vector3> circle;
-  for (int k = 0; k < 24; ++k)
+  for (int k = 0; k <= 24; ++k)
     circle.emplace_back(std::cos(pi * k / 12), 0, std::sin(pi * k / 12));
   CHECK(flaw(circle).find("comes back near itself") != std::string::npos);
-  circle.resize(16);
+  circle.resize(24); // 345 degrees
   CHECK(flaw(circle) == "");
 }
 

@@ -180,6 +180,30 @@ TEST_CASE("the table of a sum: stated error, two continuous derivatives, exact o
   CHECK(right == doctest::Approx(left).epsilon(0.05));
 }
 
+TEST_CASE("a value of the table depends on its time alone, whatever was asked before") {
+  const auto components = drawn(irregular());
+  const auto n = static_cast<Eigen::Index>(components.size());
+  VectorX omega(n);
+  Eigen::MatrixXcd c(1, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto& wave = components[static_cast<std::size_t>(i)];
+    omega[i] = wave.omega;
+    c(0, i) = std::polar(wave.amplitude, wave.phase);
+  }
+  const sea::Signals forward(omega, c, 2e4, 0.0), mixed(omega, c, 2e4, 0.0);
+  VectorX one(1), other(1);
+  std::vector<double> values;
+  for (int k = 0; k < 2000; ++k) {
+    forward(10.0 * k + 0.037, one);
+    values.push_back(one[0]);
+  }
+  for (int k = 0; k < 2000; ++k) { // 1009 is prime: all times, far from one another
+    const int j = 1009 * k % 2000;
+    mixed(10.0 * j + 0.037, other);
+    CHECK(other[0] == values[static_cast<std::size_t>(j)]);
+  }
+}
+
 TEST_CASE("ramp: smooth at both ends") {
   CHECK(sea::ramp(-1.0, 10.0) == 0.0);
   CHECK(sea::ramp(5.0, 10.0) == doctest::Approx(0.5));

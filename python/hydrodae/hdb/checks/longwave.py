@@ -268,11 +268,13 @@ def _displacement(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
             decay = np.cosh(k * (z + depth)) / np.cosh(k * depth)
         return float((abs(force) / (k * db.gravity * abs(factor)) - added) / (db.rho * decay))
 
-    volume = volume_in(depth)
-    error = abs(volume / hs.displaced_volume - 1.0)
-    hint = ""
-    deep = volume_in(np.inf)
-    if error > 0.05 and np.isfinite(depth) and abs(deep / hs.displaced_volume - 1.0) < 0.02:
+    def off(volume: float) -> float:
+        stated = hs.displaced_volume
+        return abs(volume / stated - 1.0) if stated > 0.0 else np.inf
+
+    volume, deep, hint = volume_in(depth), volume_in(np.inf), ""
+    error = off(volume)
+    if error > 0.05 and np.isfinite(depth) and off(deep) < 0.02:
         hint = f"; {deep:.5g} m3 if it was computed in deep water, not in {depth:g} m"
     return [
         Finding(

@@ -121,13 +121,13 @@ def _follows(db: HydroDatabase, name: str, heave: int) -> NDArray[np.bool_]:
 
 
 def _block(db: HydroDatabase, name: str) -> Array | None:
-    """A_inf of surge, sway, roll, pitch of a body; None where one of them is missing."""
+    """A_inf of surge, sway, roll, pitch of a body; None where one of them is missing or zero."""
     at = {label: i for i, label in enumerate(db.coordinates)}
     i = [at.get(f"{name}.{dof}") for dof in ("surge", "sway", "roll", "pitch")]
     if any(place is None for place in i):
         return None
     a = db.added_mass_inf[np.ix_(i, i)]  # type: ignore[arg-type]
-    return a if np.diag(a)[:2].min() > 0.0 else None
+    return a if np.diag(a).min() > 0.0 else None
 
 
 def _crossed(db: HydroDatabase, name: str) -> str:

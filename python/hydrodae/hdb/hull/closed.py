@@ -46,6 +46,12 @@ def closed_surface(panels: ArrayLike, freeboard: float | None = None) -> tuple[A
         lid = np.all(np.abs(p[..., 2]) < near, axis=1)
         if lid.any():
             notes.append(f"left out a lid of {int(lid.sum())} panels at z = 0")
+        if lid.all():
+            far = p.reshape(-1, 3)[np.abs(p).max(axis=2).argmax()]
+            raise DatabaseError(
+                "nothing but a lid at z = 0 is left of the surface beside its farthest corner, "
+                "({:.6g}, {:.6g}, {:.6g}); is that misplaced?".format(*far)
+            ).about("mesh", "places")
         p = p[~lid]
     triangles = triangles_of(p)
     if freeboard is not None:

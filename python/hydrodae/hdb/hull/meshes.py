@@ -15,6 +15,8 @@ from hydrodae.support.arrays import Array
 from hydrodae.support.naming import names_file
 
 _TRIANGLE, _QUAD = 2, 3
+#: Distance from the origin that no vertex reaches [m]: fifth powers of it are finite numbers.
+FARTHEST = 1e60
 #: Corners that come first of GMSH's elements of higher order.
 _CORNERS = {_TRIANGLE: 3, _QUAD: 4, 9: 3, 10: 4, 16: 4}
 
@@ -36,6 +38,15 @@ def read_mesh(path: str | Path) -> Array:
     file = Path(path)
     if not file.is_file():
         raise DatabaseError("no such mesh file").about("missing")
+    try:
+        return _read(file)
+    except (ValueError, IndexError, OverflowError, MemoryError) as error:
+        if isinstance(error, DatabaseError):
+            raise
+        raise DatabaseError(f"the mesh is damaged: {error}").about("format") from None
+
+
+def _read(file: Path) -> Array:
     raw = file.read_bytes()
     if raw[:11] == b"$MeshFormat":
         return _gmsh(raw.decode(errors="replace").splitlines())
@@ -259,7 +270,7 @@ def _with_mirrored(panels: list[list[list[float]]], axes: list[int]) -> Array:
     if not panels:
         raise DatabaseError("no panels in it").about("mesh", "panels")
     result = np.array([p if len(p) == 4 else [*p, p[-1]] for p in panels], dtype=float)
-    result = _triangles_last(result)
+    result = _triangles_last(_bounded(result))
     for axis in axes:
         result = np.concatenate([result, _mirror_image(result, axis)])
     return result
@@ -273,7 +284,19 @@ def _triangles_last(panels: Array) -> Array:
     return panels
 
 
+def _bounded(panels: Array) -> Array:
+    """Return the panels, none of which has a corner at `FARTHEST` or beyond."""
+    fine = np.all(np.abs(panels) < FARTHEST, axis=2)
+    if not fine.all():
+        place = "({:.6g}, {:.6g}, {:.6g})".format(*panels[~fine][0])
+        raise DatabaseError(
+            f"a vertex at {place} is too far away; give finite numbers in metres"
+        ).about("mesh", "places")
+    return panels
+
+
 def _quads(triangles: Array) -> Array:
+    triangles = _bounded(triangles)
     return np.concatenate([triangles, triangles[:, 2:]], axis=1)
 
 

@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers.aqwa_common import (
     aqwa_data,
@@ -153,6 +154,14 @@ class _Ah1:
             ).about("order", word, line=line)
         return table[:, len(counts) :]
 
+    def _each_alone(self, word: str) -> bool:
+        """Whether a section has entries 1 1, 2 2 ... of 36 numbers, and none of two structures."""
+        values = self.sections.get(word, (0, []))[1]
+        if self.count == 1 or len(values) != 38 * self.count:
+            return False
+        places = np.arange(1, self.count + 1)
+        return np.array_equal(np.reshape(values, (-1, 38))[:, :2].T, [places, places])
+
     def matrices(self, word: str) -> Array:
         """A or B, (nw, 6 n, 6 n): entries i, j, frequency, 36 numbers."""
         n, nw = self.count, self.omega.size
@@ -171,7 +180,8 @@ class _Ah1:
         heading, kept = unique_headings(self.heading_deg)
         k = wavenumber(self.omega, depth, gravity)
         a_inf = None
-        if "ADDEDMASS_HF" in self.sections:
+        alone = self._each_alone("ADDEDMASS_HF")
+        if "ADDEDMASS_HF" in self.sections and not alone:
             table = self.block("ADDEDMASS_HF", (n, n), 36).reshape(n, n, 6, 6)
             a_inf = unit * table.transpose(0, 2, 1, 3).reshape(6 * n, 6 * n)
         data = aqwa_data(
@@ -183,6 +193,9 @@ class _Ah1:
             centers,
             (float(unit * rho), float(gravity), float(depth)),
         )
+        if alone:
+            text = "ADDEDMASS_HF holds that of each structure alone: estimated from A and B instead"
+            data.findings.append(Finding("info", "added_mass_inf of the source", text))
         data.excitation = to_world(np.asarray(flat[:, kept], dtype=complex), k, heading, centers)
         buoyancy = self.block("COB", (n,), 3)
         volume = self.block("DISPLACEMENT", (n,), 1)[:, 0]

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.coordinates import unique_names
 from hydrodae.hdb.database.extra import kept_tables
+from hydrodae.hdb.database.files import damaged
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.shallow import shallow_findings
 from hydrodae.hdb.labels import DOFS
@@ -23,9 +24,12 @@ from hydrodae.hdb.readers.capytaine_statics import attach_bodies, text
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.relations.dispersion import frequency
 from hydrodae.support.arrays import Array, Complex
+from hydrodae.support.damaged import guarded
 from hydrodae.support.naming import names_file
 
 FREQUENCY_AXES = ("omega", "period", "freq", "wavenumber", "wavelength")
+#: Deflate, which netCDF-4 packs with, makes data smaller by 1032 times at most.
+MOST_PACKED = 1032
 FORCES = {
     "froude_krylov": "Froude_Krylov_force",
     "diffraction": "diffraction_force",
@@ -52,7 +56,14 @@ def read_capytaine(path: Path) -> SourceData:
     DatabaseError
         Not such a file, something missing, or dimensions that cannot be one database.
     """
+    with guarded(path, damaged, "not a readable netCDF file"):
+        return _read(path)
+
+
+def _read(path: Path) -> SourceData:
     with open_dataset(path) as opened:
+        if opened.nbytes > MOST_PACKED * path.stat().st_size:
+            raise damaged(path, f"it cannot hold the {opened.nbytes:.3g} bytes that it states")
         ds = _one_case(opened.load())
     for name in ("added_mass", "radiation_damping"):
         if name not in ds:
@@ -113,8 +124,8 @@ def open_dataset(path: Path) -> xr.Dataset:
     engine = "scipy" if magic[:3] == b"CDF" else "netcdf4"
     try:
         return xr.open_dataset(path, engine=engine)
-    except (OSError, ValueError, TypeError, LookupError, AttributeError) as error:
-        raise DatabaseError(f"not a readable netCDF file ({error})").about("damaged") from error
+    except (OSError, ValueError, TypeError, LookupError, AttributeError, RuntimeError) as error:
+        raise damaged(path, f"not a readable netCDF file ({error})") from error
 
 
 def _headings(ds: xr.Dataset) -> Array:

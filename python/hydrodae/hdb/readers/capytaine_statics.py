@@ -22,7 +22,8 @@ def attach_bodies(data: SourceData, ds: xr.Dataset, raw: list[str], path: Path) 
     names = bodies_of(data.coordinates)
     beside: list[nh.FileHydrostatics | None] = [None] * len(names)
     if "center_of_buoyancy" not in ds:
-        beside = nh.read_all(path.parent, len(names), data.rho, data.gravity)
+        beside, findings = nh.read_all(path.parent, len(names), data.rho, data.gravity)
+        data.findings += findings
     for i, name in enumerate(names):
         first = next(
             d for d, c in zip(raw, data.coordinates, strict=True) if c.startswith(name + ".")
@@ -64,23 +65,38 @@ def _hydrostatics(
     volume = float(_pick(ds["disp_mass"], prefix, i, vector=False)) / data.rho
     present = [d for d in raw if d.rpartition("__")[0] == prefix]
     index = [DOFS.index(d.rpartition("__")[2].lower()) for d in present]
-    if not {2, 3, 4} <= set(index):
-        return None
-    k = np.zeros((6, 6))
     block = ds["hydrostatic_stiffness"].sel(influenced_dof=present, radiating_dof=present)
     if set(block.dims) != {"influenced_dof", "radiating_dof"}:
         return None
+    k = np.zeros((6, 6))
     k[np.ix_(index, index)] = block.transpose("influenced_dof", "radiating_dof").values
+    turning = [d for d in (3, 4) if d in index]
     center = _vector(ds, "center_of_mass", prefix, i)
-    if center is not None and not np.allclose(center, point):
-        mass = data.rho * volume
-        if "inertia_matrix" in ds and 0 in index:
-            surge = present[index.index(0)]
-            mass = float(ds["inertia_matrix"].sel(influenced_dof=surge, radiating_dof=surge))
-        k[[3, 4], [3, 4]] += mass * data.gravity * (center[2] - point[2])
+    if turning and center is not None and not np.allclose(center, point):
+        mass = _mass(ds, dict(zip(index, present, strict=True)), data.rho * volume)
+        if mass is None:
+            return None
+        k[turning, turning] += mass * data.gravity * (center[2] - point[2])
+    # of motions that are not in the file the waterplane has no moments, the volume has its lever
+    for other in {3, 4} - set(turning):
+        k[other, other] = data.rho * data.gravity * volume * (buoyancy[2] - point[2])
     if not np.all(np.isfinite(k)):
         return None
+    lost = [DOFS[other] for other in (2, 3, 4) if other not in index]
+    if lost:
+        said = f"of {prefix or 'the body'} without {', '.join(lost)}, which the file does not hold"
+        data.findings.append(Finding("info", "hydrostatics", said))
     return Hydrostatics.from_stiffness(k, point, volume, buoyancy, data.rho, data.gravity)
+
+
+def _mass(ds: xr.Dataset, labels: dict[int, str], displaced: float) -> float | None:
+    """Mass of a body [kg]: its inertia along a motion of `labels`; None where the file has none."""
+    if "inertia_matrix" not in ds:
+        return displaced
+    going = [labels[i] for i in range(3) if i in labels]
+    if not going:
+        return None
+    return float(ds["inertia_matrix"].sel(influenced_dof=going[0], radiating_dof=going[0]))
 
 
 def _pick(variable: xr.DataArray, prefix: str, i: int, *, vector: bool) -> Any:

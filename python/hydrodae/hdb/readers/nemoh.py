@@ -275,7 +275,8 @@ def _compare_grid(data: SourceData, cal: NemohCal) -> None:
 
 
 def _attach_hydrostatics(data: SourceData, root: Path, names: list[str], meshes: list[str]) -> None:
-    found = nh.read_all(root, len(names), data.rho, data.gravity)
+    found, findings = nh.read_all(root, len(names), data.rho, data.gravity)
+    data.findings += findings
     data.files += [file for f in found if f is not None for file in f.files]
     for name, mesh, f in zip(names, meshes, found, strict=True):
         if f is None:

@@ -14,12 +14,10 @@ import numpy as np
 
 from hydrodae.errors import DatabaseError, Refusal
 from hydrodae.hdb.labels import DOFS
-from hydrodae.hdb.readers.text import number, read_lines, words
+from hydrodae.hdb.readers.text import LARGEST_COUNT, number, read_lines, words
 from hydrodae.support.arrays import Array
 from hydrodae.support.naming import names_file
 
-#: No run has more frequencies, headings or bodies than this.
-LARGEST_COUNT = 1_000_000
 FREQUENCY_TYPES = {1: "rad/s", 2: "Hz", 3: "s"}
 
 

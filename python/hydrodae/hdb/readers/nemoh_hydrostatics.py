@@ -19,6 +19,12 @@ from hydrodae.support.naming import names_file
 
 _PAIR = re.compile(r"=\s*(\S+)\s*-\s*[XYZ]G\s*=\s*(\S+)")
 _VALUE = re.compile(r"^\s*(Displacement|Waterplane area)[^=]*=\s*(\S+)", re.IGNORECASE)
+#: Difference of K33 / (rho g) and A_w that quadrature on panels leaves, over A_w.
+SAME_AREA = 0.01
+#: Densities of several bodies that are one to the digits of the files, over the density.
+ONE_DENSITY = 1e-3
+#: Densities of water [kg/m3]: boiling fresh water, and the Dead Sea.
+WATER = (950.0, 1250.0)
 
 
 @dataclass(frozen=True)
@@ -28,6 +34,19 @@ class FileHydrostatics:
     hydrostatics: Hydrostatics
     center_of_gravity: Array
     files: tuple[Path, Path]
+
+
+@dataclass(frozen=True)
+class _Written:
+    """What the two files of one body hold: `area` [m2] is None where `text` does not state it."""
+
+    text: Path
+    matrix: Path
+    buoyancy: Array
+    center_of_gravity: Array
+    volume: float
+    area: float | None
+    stiffness: Array
 
 
 def find(root: Path, *names: str) -> Path | None:
@@ -59,9 +78,37 @@ def find(root: Path, *names: str) -> Path | None:
     return None
 
 
-def read_all(root: Path, count: int, rho: float, gravity: float) -> list[FileHydrostatics | None]:
-    """Read the hydrostatics of every body of a folder; None where a file is missing."""
-    return [_read_one(root, i, count, rho, gravity) for i in range(count)]
+def read_all(
+    root: Path, count: int, rho: float, gravity: float
+) -> tuple[list[FileHydrostatics | None], list[Finding]]:
+    """Read the hydrostatics of every body of a folder; None where a file is missing.
+
+    Nemoh's mesher writes `KH.dat` with the density of its own input. A stiffness of another density
+    is scaled to `rho`, which the findings report.
+
+    Parameters
+    ----------
+    root : Path
+    count : int
+        Number of bodies.
+    rho, gravity : float
+        Of the tables [kg/m3], [m/s2].
+
+    Raises
+    ------
+    DatabaseError
+        A file is damaged, or K33 belongs to another waterplane than the text states.
+    """
+    written = [_read_one(root, i, count) for i in range(count)]
+    density = _density([w for w in written if w is not None], rho, gravity)
+    found = [None if w is None else _hydrostatics(w, rho, density * gravity) for w in written]
+    if density == rho:
+        return found, []
+    text = (
+        f"the stiffness of KH.dat is that of a density of {density:.5g} kg/m3, by K33 and the "
+        f"waterplane of Hydrostatics.dat; scaled to {rho:.5g} kg/m3, the density of the tables"
+    )
+    return found, [Finding("warning", "hydrostatics", text, density)]
 
 
 def total_of_all_bodies(
@@ -174,28 +221,57 @@ def wetted_meshes(root: Path, meshes: dict[str, str]) -> dict[str, Array]:
     return found
 
 
-def _read_one(
-    root: Path, i: int, count: int, rho: float, gravity: float
-) -> FileHydrostatics | None:
+def _read_one(root: Path, i: int, count: int) -> _Written | None:
     suffixes = ("", "_0") if count == 1 else (f"_{i}",)
     text = find(root, *(f"Hydrostatics{s}.dat" for s in suffixes))
     matrix = find(root, *(f"KH{s}.dat" for s in suffixes))
     if text is None or matrix is None:
         return None
-    buoyancy, gravity_center, values = _read_text(text)
-    k = _read_matrix(matrix)
+    buoyancy, center, values = _read_text(text)
+    volume, area = values["displacement"], values.get("waterplane area")
+    return _Written(text, matrix, buoyancy, center, volume, area, _read_matrix(matrix))
+
+
+def _hydrostatics(w: _Written, rho: float, weight: float) -> FileHydrostatics:
+    """Hydrostatics of a body whose stiffness was made with the specific `weight` [N/m3]."""
     hs = Hydrostatics.from_stiffness(
-        k, gravity_center, values["displacement"], buoyancy, rho, gravity
+        w.stiffness, w.center_of_gravity, w.volume, w.buoyancy, rho, weight / rho
     )
-    area = values.get("waterplane area")
+    return FileHydrostatics(hs, w.center_of_gravity, (w.text, w.matrix))
+
+
+def _density(written: list[_Written], rho: float, gravity: float) -> float:
+    """Density [kg/m3] of the stiffnesses: `rho`, or that of K33 = rho' g A_w in all bodies.
+
+    Raises
+    ------
+    DatabaseError
+        K33 and A_w of the bodies have no density of water in common.
+    """
+    known = [(w, w.stiffness[2, 2] / gravity, w.area) for w in written if w.area is not None]
     # a submerged body has areas of rounding size
-    least = 1e-4 * abs(values["displacement"]) ** (2.0 / 3.0)
-    if area is not None and abs(area - hs.waterplane_area) > 0.01 * max(abs(area), least):
-        raise DatabaseError(
-            f"K33 belongs to a waterplane of {hs.waterplane_area:.5g} m2, but "
-            f"{text.name} says {area:.5g} m2; the files are of different runs"
-        ).about("conflict", "K33", file=matrix)
-    return FileHydrostatics(hs, gravity_center, (text, matrix))
+    least = [1e-4 * abs(w.volume) ** (2.0 / 3.0) for w, _, _ in known]
+    wrong = [
+        (w, mass / area if area else np.inf)
+        for (w, mass, area), small in zip(known, least, strict=True)
+        if abs(mass / rho - area) > SAME_AREA * max(abs(area), small)
+    ]
+    if not wrong:
+        return rho
+    floating = [
+        mass / area for (_, mass, area), small in zip(known, least, strict=True) if area > small
+    ]
+    first, density = wrong[0]
+    if floating and np.ptp(floating) <= ONE_DENSITY * rho and WATER[0] <= density <= WATER[1]:
+        return float(density)
+    shown = ", ".join(f"{d:.5g}" for d in floating) or "none"
+    raise DatabaseError(
+        f"K33 belongs to a waterplane of {first.stiffness[2, 2] / (rho * gravity):.5g} m2, but "
+        f"{first.text.name} says {first.area:.5g} m2; no density of water explains both in all "
+        f"bodies (rho = {rho:.5g}; K33 and waterplane give {shown} kg/m3). Replace the file that "
+        f"is of another hull, or take both away and give the mesh of the wetted hull "
+        f"(--mesh NAME=FILE)"
+    ).about("conflict", "K33", file=first.matrix)
 
 
 @names_file

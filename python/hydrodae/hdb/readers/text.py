@@ -8,6 +8,8 @@ from pathlib import Path
 
 #: One number within a line; not the beginning or the end of a garbled one (`1.0x3`, `-1.#IND`).
 NUMBER = r"(?:[-+]|(?<![\w.]))(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d+)?(?![\w.#])"
+#: No run has more frequencies, headings, bodies or modes than this.
+LARGEST_COUNT = 1_000_000
 _AMBIGUOUS = re.compile(r"[-+]?\d+,\d+(?:[EeDd][-+]?\d+)?")
 _LOST_E = re.compile(r"(?<=[0-9.])([+-]\d{3})\b")
 

@@ -20,6 +20,7 @@ from hydrodae.hdb.readers import wamit_tables as tables
 from hydrodae.hdb.readers.formats import Format
 from hydrodae.hdb.readers.mesh_beside import statics_of_file
 from hydrodae.hdb.readers.source import SourceData, Water, without_hydrostatics
+from hydrodae.hdb.readers.text import LARGEST_COUNT
 from hydrodae.hdb.readers.wamit_asked import asked_findings
 from hydrodae.hdb.readers.wamit_control import Control, beside, mesh_of, read_control
 from hydrodae.hdb.readers.wamit_listing import is_listing, read_listing
@@ -239,10 +240,11 @@ def _modes(
 ) -> tuple[Array, list[str], tuple[str, ...]]:
     """Modes that are kept (from 1), names of the bodies, and coordinates."""
     modes = np.unique(rows[:, 1:3])
-    if np.any(modes < 1) or np.any(modes != np.round(modes)):
-        raise DatabaseError("columns 2 and 3 must be modes 1, 2, ...").about(
-            "label", "modes", file=path
-        )
+    wrong = ~((modes >= 1) & (modes <= LARGEST_COUNT) & (modes == np.round(modes)))
+    if wrong.any():
+        raise DatabaseError(
+            f"{modes[wrong][0]:g} is no mode: columns 2 and 3 must be modes 1, 2, ..."
+        ).about("label", "modes", file=path)
     bodies = len(control.points) or int((modes.max() + 5) // 6)
     extra = modes[modes > 6 * bodies]
     flexible = bodies == 1 and beside(stem, ".hst") is not None
@@ -354,8 +356,11 @@ def _stiffness(path: Path | None, control: Control, modes: Array, every: Array) 
             result[6 * i : 6 * i + 6, 6 * i : 6 * i + 6] = block
         return result
     rows, lines = tables.read_rows(path, 3, 3, "I, J, C(I,J)")
-    tables.check_indices(path, rows, lines, (0, 1), np.union1d(modes, every))
-    rows, lines = _of_modes(rows, lines, (0, 1), modes)
+    known = np.union1d(modes, every)
+    used = _of_modes(rows, lines, (0, 1), modes)
+    if len(used[0]) < modes.size**2:  # a garbled index leaves a gap; whole tables may hold more
+        tables.check_indices(path, rows, lines, (0, 1), known)
+    rows, lines = used
     flat = np.column_stack([np.zeros(len(rows)), rows])
     axes = (np.zeros(1), modes, modes)
     table = tables.scatter(path, flat, lines, (0, 1, 2), axes, rows[:, 2])

@@ -13,7 +13,7 @@ from hydrodae.case import Case
 from hydrodae.case.case import to_toml
 from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError
-from hydrodae.support.outputs import claim
+from hydrodae.support.outputs import claim, write_text
 
 _ASSIGNMENT = re.compile(r"^(?P<head>\s*[A-Za-z0-9_.\"'-]+\s*=\s*)(?P<value>.*)$")
 
@@ -44,7 +44,7 @@ def write_case(
     copy = Case.from_text(text, folder, libraries=before.libraries)
     if case_tables(copy) != case_tables(fitted):
         raise CaseError(f"{target}: the copy would not be the same case; write the values by hand")
-    claim(target, "TOML file").write_text(text, encoding="utf-8")
+    write_text(claim(target, "TOML file"), text)
     return target
 
 

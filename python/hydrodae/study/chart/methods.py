@@ -78,6 +78,8 @@ class Method:
     def values(self, setting: float) -> dict[str, Any]:
         """Values by dotted key for a `Case`, so that nothing of the case's own method stays."""
         clean = {"step": 0.0, "order": 0, "max_order": 5, "accuracy": "none"}
+        if not TRAITS[self.name].get("takes_radius"):
+            clean["spectral_radius"] = 0.8  # the default
         return {f"solver.{key}": value for key, value in {**clean, **self.solver(setting)}.items()}
 
 

@@ -40,7 +40,7 @@ def write_json(chart: Chart, path: str | os.PathLike[str]) -> Path:
     front = chart.front()
     document = {"format": "hydrodae-chart", "format_version": 1, **asdict(chart)}
     document["runs"] = [{**asdict(run), "on_front": run in front} for run in chart.runs]
-    path.write_text(json.dumps(document, indent=1, default=str) + "\n")
+    outputs.write_text(path, json.dumps(document, indent=1, default=str) + "\n")
     return path
 
 

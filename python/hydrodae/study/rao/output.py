@@ -111,7 +111,7 @@ def dataset(response: Response) -> xarray.Dataset:
 
 
 def _write_csv(path: Path, response: Response) -> None:
-    with path.open("w", newline="") as file:
+    with outputs.whole(path) as beside, beside.open("w", newline="") as file:
         rows = csv.writer(file)
         head = ["omega [rad/s]", "period [s]"]
         for name, unit in zip(response.names, response.units, strict=True):

@@ -37,9 +37,8 @@ def write(name: str | os.PathLike[str], title: str, rows: Sequence[Row]) -> list
         for row in rows
     ]
     picture = outputs.claim(base.with_suffix(".png"), outputs.PICTURE)
-    outputs.claim(data, outputs.JSON).write_text(
-        json.dumps({"case": title, "rows": entries}, indent=1) + "\n"
-    )
+    text = json.dumps({"case": title, "rows": entries}, indent=1) + "\n"
+    outputs.write_text(outputs.claim(data, outputs.JSON), text)
     names = list(dict.fromkeys(row.variant for row in rows))[1:]
     results = list(dict.fromkeys(row.result for row in rows))
     figure = Figure(figsize=(8.0, 1.5 + 0.3 * len(names)), layout="constrained")
@@ -55,5 +54,6 @@ def write(name: str | os.PathLike[str], title: str, rows: Sequence[Row]) -> list
     axes.set_title(title)
     axes.grid(alpha=0.3)
     figure.legend(loc="outside lower center", ncols=2, fontsize="small")
-    figure.savefig(picture, dpi=120)
+    with outputs.whole(picture) as beside:
+        figure.savefig(beside, dpi=120)
     return [data, picture]

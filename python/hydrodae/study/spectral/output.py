@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from hydrodae.study.rao.output import CONVENTION, write_either
+from hydrodae.support import outputs
 from hydrodae.support.arrays import Array, Complex
 
 if TYPE_CHECKING:
@@ -68,7 +69,7 @@ def dataset(found: Any) -> xarray.Dataset:
 
 
 def _write_csv(path: Path, found: Found) -> None:
-    with path.open("w", newline="") as file:
+    with outputs.whole(path) as beside, beside.open("w", newline="") as file:
         rows = csv.writer(file)
         head = ["omega [rad/s]", "heading [rad]", "wave amplitude [m]", "wave phase [rad]"]
         for name, unit in zip(found.names, found.units, strict=True):

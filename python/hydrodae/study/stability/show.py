@@ -103,9 +103,8 @@ def reasons(cells: Sequence[Cell]) -> list[str]:
 def write_json(cells: Sequence[Cell], path: str | Path) -> None:
     """Write the cells as JSON."""
     document = {"cells": [cell.record() for cell in cells]}
-    outputs.claim(path, outputs.JSON).write_text(
-        json.dumps(document, indent=1, allow_nan=False) + "\n", encoding="utf-8"
-    )
+    text = json.dumps(document, indent=1, allow_nan=False) + "\n"
+    outputs.write_text(outputs.claim(path, outputs.JSON), text)
 
 
 def write_picture(

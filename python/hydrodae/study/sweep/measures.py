@@ -130,27 +130,32 @@ class Measure:
         if channel not in results:
             told = str(results.missing(channel)).partition(" has no channel ")[2]
             raise MeasureError(f"result.{self.name}: the runs have no channel {told}")
-        series = results[channel]
+        found = results.channel(channel)
+        values, components = found.values, found.components
         if self.component is not None:
-            known = [*map(str, series["component"].values)] if series.ndim > 1 else []
-            if self.component not in known:
-                told = f"the components {', '.join(known)}" if known else "no components"
+            if self.component not in components:
+                told = f"the components {', '.join(components)}" if components else "no components"
                 raise MeasureError(
                     f"result.{self.name}: {channel} has {told}; got {self.component!r}"
                 )
-            series = series.sel(component=self.component)
-        elif series.ndim > 1:
+            values = values[:, components.index(self.component)]
+        elif components:
             raise MeasureError(
-                f"result.{self.name}: {channel} has components "
-                f"{', '.join(map(str, series['component'].values))}: name one with 'component'"
+                f"result.{self.name}: {channel} has components {', '.join(components)}: name one "
+                "with 'component'"
             )
-        values = series.to_numpy()[results.time >= self._start(results)]
+        elif values.ndim > 1:
+            raise MeasureError(
+                f"result.{self.name}: {channel} has {values.shape[1]} numbers along a line at each "
+                "time; expected a channel of one number"
+            )
+        values = values[results.time >= self._start(results)]
         if len(values) == 0:
             raise MeasureError(
                 f"result.{self.name}: no sample from {self._start(results):g} s on; the run ends "
                 f"at {results.end_time:g} s"
             )
-        return values, str(series.attrs.get("unit", "-"))
+        return values, found.unit or "-"
 
 
 def make_measure(file: Path, name: str, table: Any) -> Measure:

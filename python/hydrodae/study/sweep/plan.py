@@ -15,10 +15,10 @@ import numpy as np
 
 from hydrodae.case import Case
 from hydrodae.errors import CaseError
+from hydrodae.study.sweep.journal import identity_of
 from hydrodae.study.sweep.measures import ENDS, Measure, make_measure
 from hydrodae.study.sweep.points import Point, is_number, known, read_csv, read_file, read_points
 from hydrodae.study.sweep.rungs import DEFAULT, check_rungs
-from hydrodae.support.version import version
 
 #: Key of a point that says by which model of the motion it is run.
 RUNG = "rung"
@@ -56,16 +56,24 @@ class Study:
         same = [k for k in self.points[0] if k.rpartition(".")[2] == last]
         return last if len(same) == 1 else key.replace(".", "_")
 
-    def identity(self, case: Case) -> str:
-        """A hash of all that the numbers of a point depend on, but for the point itself."""
-        parts = [version(), case.text, *(f"{m}" for m in self.measures), digest_of_files(case)]
-        return hashlib.sha256("\0".join(parts).encode()).hexdigest()
+    def identity(self, case: Case) -> dict[str, str]:
+        """What the numbers of a point depend on, but for the point itself."""
+        return identity_of(case, self.measures, self._files_of_points(case))
 
-
-def digest_of_files(case: Case) -> str:
-    """SHA-256 of the database of a case, "" where it has none."""
-    path = case.scene.database_path
-    return hashlib.sha256(Path(path).read_bytes()).hexdigest() if path else ""
+    def _files_of_points(self, case: Case) -> str:
+        """Lines of the files that values of the points name, as in `Scene.text_of_files`."""
+        named = {
+            (key, name): case.directory / name
+            for point in self.points
+            for key, value in point.items()
+            for name in (value if isinstance(value, list) else [value])
+            if isinstance(name, str)
+        }
+        return "".join(
+            f"{hashlib.sha256(path.read_bytes()).hexdigest()} {key} = {name}\n"
+            for (key, name), path in sorted(named.items())
+            if path.is_file()
+        )
 
 
 def read_study(path: str | os.PathLike[str]) -> Study:

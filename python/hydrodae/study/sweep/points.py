@@ -41,7 +41,7 @@ def read_file(file: Path) -> tuple[str, dict[str, Any]]:
         raise CaseError(f"{file}: is a {kind}; a study is a TOML file (docs/sweeps.md)") from None
     except OSError as error:
         raise CaseError(f"{file}: cannot read the study: {error.strerror}") from None
-    except tomllib.TOMLDecodeError as error:
+    except (ValueError, RecursionError) as error:  # also numbers of thousands of digits
         raise CaseError(f"{file}: {error}") from None
     if "case" not in given and ("body" in given or "solver" in given):
         raise CaseError(

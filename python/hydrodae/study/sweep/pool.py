@@ -6,6 +6,8 @@ import ctypes
 import os
 import signal
 import sys
+import tempfile
+import warnings
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
@@ -13,7 +15,7 @@ from concurrent.futures.process import BrokenProcessPool
 from typing import Any
 
 from hydrodae.case import Case
-from hydrodae.errors import HydrodaeError, SolverError
+from hydrodae.errors import HydrodaeError, RunWarning, SolverError
 from hydrodae.study.sweep.journal import Row
 from hydrodae.study.sweep.measures import Measure, MeasureError
 from hydrodae.study.sweep.plan import RUNG, point_key
@@ -30,10 +32,19 @@ _rungs: tuple[str, ...] = ()
 
 
 def _begin(
-    path: str, values: Mapping[str, Any], measures: tuple[Measure, ...], rungs: tuple[str, ...]
+    folder: str,
+    path: str,
+    values: Mapping[str, Any],
+    measures: tuple[Measure, ...],
+    rungs: tuple[str, ...],
 ) -> None:
-    """Read the case once in each process; Ctrl-C is the parent's, whose end is theirs."""
+    """Read the case once in each process; Ctrl-C is the parent's, whose end is theirs.
+
+    Temporary files are in a folder of the parent, which outlives processes that it kills.
+    """
     global _case, _measures, _rungs
+    tempfile.tempdir = folder
+    warnings.simplefilter("ignore", RunWarning)  # the table has the errors of its runs
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(_KILLED_WITH_PARENT, signal.SIGKILL)
@@ -108,12 +119,15 @@ def run_points(
     """
     jobs = min(jobs or os.cpu_count() or 1, len(points))
     left = iter(points)
-    with ProcessPoolExecutor(
-        jobs,
-        mp_context=processes.context(anew=True),
-        initializer=_begin,
-        initargs=(path, values, measures, rungs),
-    ) as pool:
+    with (
+        tempfile.TemporaryDirectory(prefix="hydrodae-") as folder,
+        ProcessPoolExecutor(
+            jobs,
+            mp_context=processes.context(anew=True),
+            initializer=_begin,
+            initargs=(folder, path, values, measures, rungs),
+        ) as pool,
+    ):
         working: set[Future[Row]] = set()
         try:
             while True:

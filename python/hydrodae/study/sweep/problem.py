@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -12,11 +11,10 @@ from typing import Any
 from hydrodae.case import Case
 from hydrodae.errors import CaseError
 from hydrodae.study.gradient.quantity import POWER, Quantity
+from hydrodae.study.sweep.journal import identity_of
 from hydrodae.study.sweep.measures import make_measure
-from hydrodae.study.sweep.plan import digest_of_files
 from hydrodae.study.sweep.points import known, read_file
 from hydrodae.study.sweep.rungs import DEFAULT, check_rungs
-from hydrodae.support.version import version
 
 #: SciPy's methods, and what their own options are taken from.
 METHODS: Mapping[str, Mapping[str, str]] = {
@@ -75,11 +73,10 @@ class Problem:
         """Of the quantity."""
         return self.quantity.name
 
-    def identity(self, case: Case) -> str:
-        """A hash of all that an evaluation depends on, but for the values of the parameters."""
-        what = (self.quantity, self.rung, [(p.name, p.keys) for p in self.parameters])
-        parts = [version(), case.text, f"{what}", f"{sorted(case.overrides.items())}"]
-        return hashlib.sha256("\0".join([*parts, digest_of_files(case)]).encode()).hexdigest()
+    def identity(self, case: Case) -> dict[str, str]:
+        """What an evaluation depends on, but for the values of the parameters."""
+        names = [(p.name, p.keys) for p in self.parameters]
+        return identity_of(case, (self.quantity, self.rung, names))
 
 
 def read_problem(path: str | os.PathLike[str]) -> Problem:

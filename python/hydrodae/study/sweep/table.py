@@ -155,11 +155,12 @@ def claim(path: str | os.PathLike[str]) -> Path:
 
 def write(path: str | os.PathLike[str], results: xr.Dataset) -> Path:
     """Write the dataset as netCDF (a whole file or none)."""
-    target = Path(path)
-    beside = target.with_name(target.name + ".writing")
-    results.to_netcdf(beside, engine="netcdf4")
-    beside.replace(target)
-    return target
+    with outputs.whole(Path(path)) as beside:
+        try:
+            results.to_netcdf(beside, engine="netcdf4")
+        except RuntimeError as error:  # of the library, as on a full disk
+            raise OSError(str(error)) from None
+    return Path(path)
 
 
 def text(results: xr.Dataset) -> str:
