@@ -73,6 +73,25 @@ def test_a_flat_triangle_is_refused_whatever_its_masses_and_lengths(
 
 
 @pytest.mark.parametrize(("slider", "rod", "length"), SIZES)
+@pytest.mark.parametrize("misfit", [1e-8, 1e-3])
+def test_a_flat_triangle_is_refused_beside_a_door_whose_hinges_are_out_of_line(
+    slider: float, rod: float, length: float, misfit: float
+) -> None:
+    """Each mechanism is judged by itself: the door closes by least squares only."""
+    door = body("door", 20.0, 2.0, (5.0, 0.0), "rigid") + "".join(
+        f'[[joint]]\nname = "{name}"\ntype = "revolute"\nbody_a = "ground"\nbody_b = "door"\n'
+        f"point = [{4.5 + shift}, 0.0, {z}]\naxis = [0, 0, 1]\n"
+        for name, z, shift in (("upper", 1.0, 0.0), ("lower", -1.0, misfit))
+    )
+    with wrong("joint.pivot"):
+        run_of(
+            triangle(slider, rod, length, 0.0) + door,
+            math.sqrt(length),
+            tolerance_assembly=0.01,
+        )
+
+
+@pytest.mark.parametrize(("slider", "rod", "length"), SIZES)
 @pytest.mark.parametrize("angle", [0.01, 0.5])
 def test_a_triangle_stands_still_and_its_bar_bears_the_load(
     slider: float, rod: float, length: float, angle: float

@@ -312,11 +312,21 @@ BARGE_ADDED = np.diag([5e3, 8e3, 2e4, 19e3, 1e5, 6e4])
 ROLL_PERIOD = 3.433  # s
 
 
+def slopes(omega: float, relative: Any) -> Complex:
+    """Loads of long waves of height one: stiffness times height and slope, (nh, 6)."""
+    b, k = np.asarray(relative), omega**2 / G
+    out = np.zeros((*b.shape, 6), dtype=complex)
+    tilts = [np.ones_like(b), -1j * k * np.sin(b), 1j * k * np.cos(b)]
+    out[..., 2:5] = np.stack(tilts, axis=-1) * BARGE_STIFFNESS
+    return out
+
+
 def barge(folder: Path, **start: Any) -> hydrodae.Scene:
-    """Return a free box barge that radiates nothing, in still water."""
+    """Return a free box barge that radiates nothing; long waves lift and tilt it."""
     area, roll, pitch = BARGE_STIFFNESS / (1000.0 * G)
     statics = hdb.Hydrostatics(13.2, np.zeros(3), area, np.array([0.0, 0.0, pitch, roll, 0.0]))
-    force = np.zeros((OMEGA.size, 13, 6), dtype=complex)
+    heading = np.radians(np.arange(0.0, 361.0, 30.0))
+    force = np.array([slopes(omega, heading) for omega in OMEGA])
     n = (OMEGA.size, 1, 1)
     hdb.HydroDatabase(
         coordinates=tuple(f"barge.{dof}" for dof in hdb.labels.DOFS),
@@ -325,9 +335,9 @@ def barge(folder: Path, **start: Any) -> hydrodae.Scene:
         radiation_damping=np.tile(np.zeros((6, 6)), n),
         added_mass_inf=BARGE_ADDED,
         added_mass_inf_std=np.zeros((6, 6)),
-        heading=np.radians(np.arange(0.0, 361.0, 30.0)),
+        heading=heading,
         froude_krylov=force,
-        diffraction=force,
+        diffraction=np.zeros_like(force),
         bodies={"barge": hdb.Body("barge", np.zeros(3), statics)},
         rho=1000.0,
         gravity=G,
@@ -372,6 +382,30 @@ def test_a_turning_barge_rolls_with_its_own_period(tmp_path: Path, heading: floa
     assert (at[-1] - at[-21]) / 20.0 == pytest.approx(ROLL_PERIOD, rel=1e-3)
     assert np.abs(roll).max() == pytest.approx(0.01 * ROLL_PERIOD / (2.0 * np.pi), rel=0.01)
     assert np.abs(pitch).max() < 5e-4
+
+
+@pytest.mark.parametrize("heading", [0.0, 25.0, -120.0])
+def test_a_barge_rolls_and_pitches_in_a_small_wave_as_linear_theory_says(
+    tmp_path: Path, heading: float
+) -> None:
+    """Wave of 1 cm: (I + A) tilt'' + K tilt = a Re(F e^(i w t)), at rest at t = 0, by itself."""
+    amplitude, omega = 0.01, 1.25
+    scene = barge(tmp_path, rotation_deg=[0.0, 0.0, heading])
+    scene.wave.regular("w", height=2.0 * amplitude, period=2.0 * np.pi / omega)
+    scene.output(step=0.1)
+    scene.solver(end_time=100.0, rtol=1e-9, accuracy="none")
+    results = hydrodae.run(scene)
+    roll, pitch = tilt(results).T * np.array([[1.0], [-1.0]])
+    load = amplitude * slopes(omega, np.radians(-heading))[3:5]
+    t = results.time
+    for found, f, stiffness, w0 in (
+        (roll, load[0], BARGE_STIFFNESS[1], 2.0 * np.pi / ROLL_PERIOD),
+        (pitch, load[1], BARGE_STIFFNESS[2], np.sqrt(BARGE_STIFFNESS[2] / 2e5)),
+    ):
+        steady = f / stiffness / (1.0 - (omega / w0) ** 2)  # then free motion from rest
+        free = steady.real * np.cos(w0 * t) - steady.imag * omega / w0 * np.sin(w0 * t)
+        expected = (steady * np.exp(1j * omega * t)).real - free
+        np.testing.assert_allclose(found, expected, atol=1e-5)
 
 
 @pytest.mark.parametrize("method", ["auto", "radau", "ida"])

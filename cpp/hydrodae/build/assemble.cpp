@@ -120,7 +120,7 @@ void assemble(system::System& s, const Fit& fit, const std::vector<BodyStart>& g
   const system::Regime kept(s);
   system::resize(kept, y);
   Constraints constraints(kept, s.starts);
-  if (!(close_positions(s, constraints, y) < nearly_closed))
+  if (!(close_positions(s, constraints, y).array() < nearly_closed).all())
     refuse_gap(constraints, y);
   check_dropped(s, kept, y, fit.tolerance);
   start_velocities(s, given, constraints, y);
@@ -129,7 +129,7 @@ void assemble(system::System& s, const Fit& fit, const std::vector<BodyStart>& g
 
 bool close(const system::Regime& s, VectorX& y) {
   Constraints constraints(s);
-  if (!(close_positions(s, constraints, y) < nearly_closed))
+  if (!(close_positions(s, constraints, y).array() < nearly_closed).all())
     return false;
   close_velocities(s, constraints, y);
   return true;

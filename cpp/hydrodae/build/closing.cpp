@@ -14,66 +14,100 @@ constexpr double longest_way = 3.0;  ///< scales, 0.3 levers: a step that keeps 
 constexpr double parallel = 0.03; ///< part of a gap that motions close, where it cannot be closed
 constexpr double nearby = 0.3;    ///< way, in scales, that closes a gap without leaving the pose
 
+/// Marks the mechanisms that are done, and takes their gaps out.
+/// @returns whether any goes on
+bool drop_gaps(const Constraints& constraints, const std::vector<bool>& going, VectorX& gaps) {
+  for (Index i = 0; i < gaps.size(); ++i)
+    if (!going[static_cast<std::size_t>(constraints.mechanism(i))])
+      gaps[i] = 0.0;
+  return std::find(going.begin(), going.end(), true) != going.end();
+}
+
+SparseMatrix gradient_of(const Constraints& constraints, const std::vector<bool>& going) {
+  return constraints.gradient([&](Index i) {
+    return constraints.holds_position(i) &&
+           going[static_cast<std::size_t>(constraints.mechanism(i))];
+  });
+}
+
+/// Goes a step, at most `longest_way` in each mechanism, and none in those that are done.
+void go(const system::System& s, const Constraints& constraints, const std::vector<bool>& going,
+        const VectorX& largest, VectorX step, VectorX& y) {
+  for (Index k = 0; k < step.size(); ++k) {
+    const Index m = constraints.owner(k);
+    if (!going[static_cast<std::size_t>(m)])
+      step[k] = 0.0;
+    else if (largest[m] > longest_way)
+      step[k] *= longest_way / largest[m];
+  }
+  retract(s, step.cwiseProduct(constraints.scale()), y);
+}
+
 } // namespace
 
-double close_positions(const system::System& s, Constraints& constraints, VectorX& y,
-                       double* moved) {
-  VectorX gaps, rates;
-  double size = 0.0, before = INFINITY, way = 0.0;
+VectorX close_positions(const system::System& s, Constraints& constraints, VectorX& y,
+                        VectorX* moved) {
+  const Index n = constraints.n_mechanisms();
+  VectorX gaps, rates, size = VectorX::Zero(n), before = VectorX::Constant(n, INFINITY),
+                       way = VectorX::Zero(n);
+  std::vector<bool> going(static_cast<std::size_t>(n), true);
   for (int iteration = 0; iteration < 200; ++iteration) {
     constraints.evaluate(y, gaps, rates);
-    size = gaps.size() > 0 ? gaps.cwiseAbs().maxCoeff() : 0.0;
-    if (!std::isfinite(size) || size < closed || (size < 1e-9 && size > 0.5 * before))
+    size = constraints.largest_row(gaps);
+    for (Index m = 0; m < n; ++m)
+      if (!std::isfinite(size[m]) || size[m] < closed ||
+          (size[m] < 1e-9 && size[m] > 0.5 * before[m]))
+        going[static_cast<std::size_t>(m)] = false;
+    if (!drop_gaps(constraints, going, gaps))
       break;
     before = size;
-    VectorX step = smallest_solution(
-        constraints.gradient([&](Index i) { return constraints.holds_position(i); }), -gaps);
-    const double largest = step.cwiseAbs().maxCoeff();
-    if (largest > longest_way)
-      step *= longest_way / largest;
-    way += std::min(largest, longest_way);
-    if (moved && way > *moved)
-      break;
-    retract(s, step.cwiseProduct(constraints.scale()), y);
+    const VectorX step = smallest_solution(gradient_of(constraints, going), -gaps);
+    const VectorX largest = constraints.largest_motion(step);
+    way += largest.cwiseMin(longest_way);
+    for (Index m = 0; moved && m < n; ++m)
+      if (way[m] > (*moved)[m])
+        going[static_cast<std::size_t>(m)] = false;
+    go(s, constraints, going, largest, step, y);
   }
   if (moved)
     *moved = way;
   return size;
 }
 
-void approach(const system::System& s, Constraints& constraints, VectorX& y, double* moved) {
-  VectorX gaps, rates;
-  double gone = 0.0;
+VectorX approach(const system::System& s, Constraints& constraints, VectorX& y) {
+  const Index n = constraints.n_mechanisms();
+  VectorX gaps, rates, gone = VectorX::Zero(n);
+  std::vector<bool> going(static_cast<std::size_t>(n), true);
   for (int iteration = 0; iteration < 60; ++iteration) {
     constraints.evaluate(y, gaps, rates);
-    const double size = gaps.size() > 0 ? gaps.cwiseAbs().maxCoeff() : 0.0;
-    if (!std::isfinite(size) || size < closed)
+    const VectorX size = constraints.largest_row(gaps);
+    for (Index m = 0; m < n; ++m)
+      if (!std::isfinite(size[m]) || size[m] < closed)
+        going[static_cast<std::size_t>(m)] = false;
+    if (!drop_gaps(constraints, going, gaps))
       break;
-    VectorX step = damped_solution(
-        constraints.gradient([&](Index i) { return constraints.holds_position(i); }), -gaps,
-        row_damping);
-    const double largest = step.cwiseAbs().maxCoeff();
-    if (!(largest > 1e-6 * size))
-      break; // nothing moves any more
-    if (largest > longest_way)
-      step *= longest_way / largest;
-    gone += std::min(largest, longest_way);
-    retract(s, step.cwiseProduct(constraints.scale()), y);
+    const VectorX step = damped_solution(gradient_of(constraints, going), -gaps, row_damping);
+    const VectorX largest = constraints.largest_motion(step);
+    for (Index m = 0; m < n; ++m)
+      if (!(largest[m] > 1e-6 * size[m]))
+        going[static_cast<std::size_t>(m)] = false; // nothing moves any more
+      else
+        gone[m] += std::min(largest[m], longest_way);
+    go(s, constraints, going, largest, step, y);
   }
-  if (moved)
-    *moved = gone;
-  VectorX refined = y;
-  double way = nearby;
-  if (close_positions(s, constraints, refined, &way) < nearly_closed)
-    y = refined;
+  VectorX refined = y, way = VectorX::Constant(n, nearby);
+  const VectorX left = close_positions(s, constraints, refined, &way);
+  for (Index m = 0; m < n; ++m)
+    if (left[m] < nearly_closed)
+      constraints.copy_mechanism(m, refined, y);
+  return gone;
 }
 
-bool is_closed(Constraints& constraints, const VectorX& y) {
+std::vector<bool> closed_mechanisms(Constraints& constraints, const VectorX& y) {
+  const Index n = constraints.n_mechanisms();
   VectorX gaps, rates;
   constraints.evaluate(y, gaps, rates);
-  const double size = gaps.size() > 0 ? gaps.cwiseAbs().maxCoeff() : 0.0;
-  if (size < nearly_closed)
-    return true;
+  const VectorX size = constraints.largest_row(gaps);
   const SparseMatrix G =
       constraints.gradient([&](Index i) { return constraints.holds_position(i); });
   VectorX length = VectorX::Zero(G.rows()); // rows of length one, as in `approach`
@@ -81,25 +115,33 @@ bool is_closed(Constraints& constraints, const VectorX& y) {
     for (SparseMatrix::InnerIterator it(G, c); it; ++it)
       length[it.row()] += it.value() * it.value();
   length = length.cwiseMax(1e-300);
-  const double pull = (G.transpose() * gaps.cwiseQuotient(length)).norm();
-  return size < 0.3 && pull < parallel * gaps.cwiseQuotient(length.cwiseSqrt()).norm();
+  const VectorX pull = G.transpose() * gaps.cwiseQuotient(length);
+  VectorX pulls = VectorX::Zero(n), opens = VectorX::Zero(n); // squares
+  for (Index k = 0; k < pull.size(); ++k)
+    pulls[constraints.owner(k)] += pull[k] * pull[k];
+  for (Index i = 0; i < gaps.size(); ++i)
+    opens[constraints.mechanism(i)] += gaps[i] * gaps[i] / length[i];
+  std::vector<bool> out;
+  for (Index m = 0; m < n; ++m)
+    out.push_back(size[m] < nearly_closed ||
+                  (size[m] < 0.3 && std::sqrt(pulls[m]) < parallel * std::sqrt(opens[m])));
+  return out;
 }
 
 bool find_pose(const system::System& s, Constraints& constraints, VectorX& y) {
-  VectorX direct = y;
-  double damped_way = 0.0, way = INFINITY;
-  approach(s, constraints, y, &damped_way);
+  VectorX direct = y, way = VectorX::Constant(constraints.n_mechanisms(), INFINITY);
+  const VectorX damped_way = approach(s, constraints, y);
   // Without damping a little misalignment would drive the bodies back to where it vanishes.
-  const bool reached = close_positions(s, constraints, direct, &way) < nearly_closed;
-  if (reached && way <= 1.5 * damped_way + nearby) {
-    y = direct;
-    return true;
+  const VectorX left = close_positions(s, constraints, direct, &way);
+  const std::vector<bool> closes = closed_mechanisms(constraints, y);
+  bool found = true;
+  for (Index m = 0; m < left.size(); ++m) {
+    const bool reached = left[m] < nearly_closed;
+    if (reached && (way[m] <= 1.5 * damped_way[m] + nearby || !closes[static_cast<std::size_t>(m)]))
+      constraints.copy_mechanism(m, direct, y);
+    found = found && (reached || closes[static_cast<std::size_t>(m)]);
   }
-  if (is_closed(constraints, y))
-    return true;
-  if (reached)
-    y = direct;
-  return reached;
+  return found;
 }
 
 } // namespace hydrodae::build

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hydrodae/math/sets.h"
 #include "hydrodae/system/dropped_rows.h"
 #include "hydrodae/system/residual.h"
 
@@ -49,6 +50,62 @@ Constraints::Constraints(const system::Regime& s, std::vector<system::MotionStar
     size_[i] = s.row_scale[velocity_level ? s.lambda(row) : s.mu(row)];
     mu_[i] = velocity_level ? -1 : s.mu(row);
   });
+  set_mechanisms();
+}
+
+void Constraints::set_mechanisms() {
+  const auto moves = [&](int body) { return body >= 0 && s_.bodies[body].n_active > 0; };
+  Sets sets(std::ssize(s_.bodies));
+  const auto join = [&](const system::JointData& j) {
+    if (moves(j.A.body) && moves(j.B.body))
+      sets.join(j.A.body, j.B.body);
+    return moves(j.A.body) ? j.A.body : std::max(j.B.body, 0);
+  };
+  std::vector<Index> body(static_cast<std::size_t>(size_.size()), 0); // a body of each row
+  for (const system::JointData& j : s_.joints)
+    for (const system::RowData& row : j.rows)
+      if (s_.holds(row))
+        body[static_cast<std::size_t>(s_.lambda(row) - s_.lambda0)] = join(j);
+  for (const system::CouplerData& c : s_.couplers)
+    if (s_.holds(c)) {
+      Index& first = body[static_cast<std::size_t>(s_.lambda(c) - s_.lambda0)];
+      first = join(s_.joints[s_.motions[c.terms.front().motion].joint]);
+      for (const system::CouplerData::Term& term : c.terms)
+        sets.join(first, join(s_.joints[s_.motions[term.motion].joint]));
+    }
+  for (std::size_t k = 0; k < starts_.size(); ++k)
+    body[static_cast<std::size_t>(s_.n_lambda) + k] =
+        join(s_.joints[s_.motions[starts_[k].motion].joint]);
+  const Sets::Lists lists = sets.lists();
+  n_mechanisms_ = std::ssize(lists.members);
+  for (Index b : body)
+    mechanism_.push_back(s_.bodies.empty() ? 0 : static_cast<Index>(lists.set[b]));
+  owner_.resize(static_cast<std::size_t>(s_.n_u));
+  for (std::size_t b = 0; b < s_.bodies.size(); ++b)
+    for (int k = 0; k < s_.bodies[b].n_active; ++k)
+      owner_[static_cast<std::size_t>(s_.bodies[b].u0 - s_.u0 + k)] =
+          static_cast<Index>(lists.set[b]);
+}
+
+VectorX Constraints::largest_row(const VectorX& rows) const {
+  VectorX out = VectorX::Zero(n_mechanisms_);
+  for (Index i = 0; i < rows.size(); ++i)
+    if (double& value = out[mechanism(i)]; !(std::abs(rows[i]) <= value)) // and NaN
+      value = std::abs(rows[i]);
+  return out;
+}
+
+VectorX Constraints::largest_motion(const VectorX& motion) const {
+  VectorX out = VectorX::Zero(n_mechanisms_);
+  for (Index k = 0; k < motion.size(); ++k)
+    out[owner(k)] = std::max(out[owner(k)], std::abs(motion[k]));
+  return out;
+}
+
+void Constraints::copy_mechanism(Index mechanism, const VectorX& from, VectorX& to) const {
+  for (const system::BodyData& b : s_.bodies)
+    if (b.n_active > 0 && owner(b.u0 - s_.u0) == mechanism)
+      to.segment(b.q0, b.n_position) = from.segment(b.q0, b.n_position);
 }
 
 void Constraints::evaluate(const VectorX& y, VectorX& gaps, VectorX& rates) {

@@ -41,6 +41,19 @@ public:
   double lever(Index i) const { return lever_[i]; } ///< arm of the smaller body [m]
   std::string name(Index i) const;                  ///< "joints/door gap along x"
   std::string key(Index i) const; ///< what of the case it belongs to: "joint.door"
+
+  /// Mechanisms that rows or conditions of the start hold together; each closes by itself.
+  Index n_mechanisms() const { return n_mechanisms_; }
+  Index mechanism(Index i) const { return mechanism_[static_cast<std::size_t>(i)]; } ///< of row i
+  /// Mechanism of velocity coordinate k < n_u.
+  Index owner(Index k) const { return owner_[static_cast<std::size_t>(k)]; }
+  /// Largest entry of a vector of rows (size(),) in each mechanism.
+  VectorX largest_row(const VectorX& rows) const;
+  /// Largest entry of a vector of velocity coordinates (n_u,) in each mechanism.
+  VectorX largest_motion(const VectorX& motion) const;
+  /// Copies the positions of one mechanism.
+  void copy_mechanism(Index mechanism, const VectorX& from, VectorX& to) const;
+
   const VectorX& scale() const { return scale_; }
   const system::Workspace<double>& workspace() const { return ws_; }
   const system::MotionStart& start(Index i) const {
@@ -48,6 +61,7 @@ public:
   }
 
 private:
+  void set_mechanisms();
   void append(std::vector<Eigen::Triplet<double>>& entries, const system::JointData& j, Index i,
               const joint::Vector12& gradient) const;
 
@@ -57,6 +71,8 @@ private:
   VectorX scale_, size_, lever_;
   std::vector<Index> mu_;
   std::vector<bool> angle_;
+  std::vector<Index> mechanism_, owner_; ///< of each row, of each velocity coordinate
+  Index n_mechanisms_ = 0;
 };
 
 } // namespace hydrodae::build

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <random>
 #include <set>
 
 #include "hydrodae/build/closing.h"
+#include "hydrodae/build/row_ranks.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/system/dropped_rows.h"
@@ -41,90 +43,29 @@ VectorX trial_scale(const system::System& s) {
   return out;
 }
 
-/// Rows and bodies scaled so that neither a body's size nor its mass decides: rotations count by
-/// the arm of the body, and the largest entry of each row, and of the columns of each body
-/// together, is about one. (A factor for each column would hide what a body can hardly do.)
-SparseMatrix balanced(const system::System& s, SparseMatrix G) {
-  for (const system::BodyData& b : s.bodies)
-    for (int k = 0; k < b.n_active; ++k)
-      if (b.active[k] >= 3)
-        G.col(b.u0 - s.u0 + k) *= b.lever / b.arm;
-  std::vector<std::size_t> owner(static_cast<std::size_t>(s.n_u));
-  for (std::size_t b = 0; b < s.bodies.size(); ++b)
-    for (int k = 0; k < s.bodies[b].n_active; ++k)
-      owner[static_cast<std::size_t>(s.bodies[b].u0 - s.u0 + k)] = b;
-  const auto each = [&](auto&& visit) {
-    for (Index c = 0; c < G.cols(); ++c)
-      for (SparseMatrix::InnerIterator it(G, c); it; ++it)
-        visit(it.row(), owner[static_cast<std::size_t>(c)], it.valueRef());
-  };
-  for (int pass = 0; pass < 3; ++pass) {
-    VectorX body = VectorX::Zero(static_cast<Index>(s.bodies.size())),
-            row = VectorX::Zero(G.rows());
-    each([&](Index, std::size_t b, double& value) {
-      double& size = body[static_cast<Index>(b)];
-      size = std::max(size, std::abs(value));
-    });
-    each([&](Index, std::size_t b, double& value) {
-      if (body[static_cast<Index>(b)] > 0.0)
-        value /= body[static_cast<Index>(b)];
-    });
-    each([&](Index i, std::size_t, double& value) { row[i] = std::max(row[i], std::abs(value)); });
-    each([&](Index i, std::size_t, double& value) {
-      if (row[i] > 0.0)
-        value /= row[i];
-    });
-  }
-  return G;
-}
-
-using Mask = std::vector<bool>; ///< which rows are looked at
-
-/// Rows of a closed pose by falling pivots; rows without any entry come last.
-struct Ranking {
-  VectorX y;
-  std::vector<RankedRow> rows;
-  std::size_t rank(double limit) const {
-    return static_cast<std::size_t>(std::count_if(
-        rows.begin(), rows.end(), [&](const RankedRow& row) { return row.pivot > limit; }));
-  }
-};
-
-Ranking rank_at(const system::System& s, Constraints& constraints, const Mask& mask,
-                const VectorX& y) {
-  VectorX gaps, rates;
-  constraints.evaluate(y, gaps, rates);
-  const auto n = static_cast<Index>(mask.size());
-  const auto wanted = [&](Index i) { return i < n && mask[static_cast<std::size_t>(i)]; };
-  Ranking out{y, ranked_rows(balanced(s, constraints.gradient(wanted)))};
-  std::stable_sort(out.rows.begin(), out.rows.end(),
-                   [](const RankedRow& a, const RankedRow& b) { return a.pivot > b.pivot; });
-  Mask missing = mask;
-  for (const RankedRow& row : out.rows)
-    missing[static_cast<std::size_t>(row.row)] = false;
-  for (Index i = 0; i < n; ++i)
-    if (missing[static_cast<std::size_t>(i)])
-      out.rows.push_back({i, 0.0});
-  return out;
-}
-
 /// A uniform number in [-1, 1).
 double draw(std::mt19937& random) { return 2.0 * (random() / 4294967296.0) - 1.0; }
 
-/// The start, and up to four closed poses near it.
+/// The start, and up to four closed poses near it of each mechanism. A mechanism that closes in
+/// fewer trials rests in the start in the last of them.
 std::vector<VectorX> poses_near(const system::Regime& s, const VectorX& start) {
+  constexpr std::size_t most = 4;
   Constraints constraints(s);
   const VectorX scale = trial_scale(s);
-  std::vector<VectorX> out{start};
+  std::vector<VectorX> out(1 + most, start);
+  std::vector<std::size_t> found(static_cast<std::size_t>(constraints.n_mechanisms()), 0);
   std::mt19937 random(7);
-  for (int sample = 0; sample < 12 && out.size() < 5; ++sample) {
+  const auto enough = [&](std::size_t count) { return count >= most; };
+  for (int sample = 0; sample < 12 && !std::all_of(found.begin(), found.end(), enough); ++sample) {
     VectorX step(s.n_u), y = start;
     for (double& x : step)
       x = (sample < 8 ? 1.0 : 0.25) * draw(random);
     retract(s, step.cwiseProduct(scale), y);
-    approach(s, constraints, y, nullptr);
-    if (is_closed(constraints, y))
-      out.push_back(y);
+    approach(s, constraints, y);
+    const std::vector<bool> closed = closed_mechanisms(constraints, y);
+    for (std::size_t m = 0; m < found.size(); ++m)
+      if (closed[m] && found[m] < most)
+        constraints.copy_mechanism(static_cast<Index>(m), y, out[++found[m]]);
   }
   return out;
 }
@@ -168,11 +109,16 @@ Mask curved_rows(system::System& s, const system::Regime& rows, const Mask& aske
   std::mt19937 random(11);
   VectorX gaps[2], rates;
   const auto close_at = [&](VectorX& y, VectorX& gap) {
-    const bool closed = close_positions(s, constraints, y) < nearly_closed;
+    const VectorX left = close_positions(s, constraints, y);
     VectorX full = y;
     system::resize(rows, full);
     all.evaluate(full, gap, rates);
-    return closed;
+    // Without their doubtful rows the bodies of a mechanism may be several.
+    std::vector<bool> open(static_cast<std::size_t>(all.n_mechanisms()), false);
+    for (Index k = 0; k < s.n_u; ++k)
+      if (!(left[constraints.owner(k)] < nearly_closed))
+        open[static_cast<std::size_t>(all.owner(k))] = true;
+    return open;
   };
   for (int sample = 0; sample < 4; ++sample) {
     VectorX step(s.n_u), there = start;
@@ -181,23 +127,22 @@ Mask curved_rows(system::System& s, const system::Regime& rows, const Mask& aske
     system::resize(others, there);
     VectorX back = there;
     retract(s, step.cwiseProduct(scale), there);
-    bool closed = close_at(there, gaps[0]);
+    const std::vector<bool> open_there = close_at(there, gaps[0]);
     back.head(s.n_q) = 2.0 * back.head(s.n_q) - there.head(s.n_q); // as far the other way
     system::normalise(s, back);
-    closed = close_at(back, gaps[1]) && closed;
-    if (!closed)
-      continue;
+    const std::vector<bool> open_back = close_at(back, gaps[1]);
     VectorX second = VectorX::Zero(all.n_rows()), first = second; // of the gaps [arms, rad]
     for (Index i = 0; i < all.n_rows(); ++i)
-      if (asked[static_cast<std::size_t>(i)]) {
+      if (const auto m = static_cast<std::size_t>(all.mechanism(i));
+          asked[static_cast<std::size_t>(i)] && !open_there[m] && !open_back[m]) {
         const double unit = all.size(i) / (all.is_angle(i) ? 1.0 : all.lever(i));
         second[i] = 0.5 * unit * std::abs(gaps[0][i] + gaps[1][i]);
         first[i] = 0.5 * unit * std::abs(gaps[0][i] - gaps[1][i]);
       }
     // A hinge out of line opens e sin(turn) one way, and e (1 - cos(turn)) across it.
-    const double least = std::max(noise, curved * first.maxCoeff());
+    const VectorX least = (curved * all.largest_row(first)).cwiseMax(noise);
     for (Index i = 0; i < all.n_rows(); ++i)
-      if (second[i] > least)
+      if (second[i] > least[all.mechanism(i)])
         out[static_cast<std::size_t>(i)] = true;
   }
   return out;
@@ -211,29 +156,31 @@ bool moves(const system::CouplerData& c) {
 }
 
 /// The k-th pivot of the pose in which it is largest.
-std::vector<double> best_pivots(const std::vector<Ranking>& poses) {
-  std::vector<double> out(poses.front().rows.size(), 0.0);
-  for (const Ranking& pose : poses)
+std::vector<double> best_pivots(const std::vector<const Ranking*>& poses) {
+  std::vector<double> out(poses.front()->rows.size(), 0.0);
+  for (const Ranking* pose : poses)
     for (std::size_t k = 0; k < out.size(); ++k)
-      out[k] = std::max(out[k], pose.rows[k].pivot);
+      out[k] = std::max(out[k], pose->rows[k].pivot);
   return out;
 }
 
 /// The pose to choose the rows from: the start, if its rows are as independent as elsewhere.
-const Ranking& best_pose(const std::vector<Ranking>& poses, std::size_t rank) {
-  const Ranking* best = &poses.front();
-  const auto last = [&](const Ranking& pose) { return rank > 0 ? pose.rows[rank - 1].pivot : 1.0; };
-  for (const Ranking& pose : poses)
-    if (last(pose) > 10.0 * last(*best))
-      best = &pose;
-  return *best;
+std::size_t best_pose(const std::vector<const Ranking*>& poses, std::size_t rank) {
+  std::size_t best = 0;
+  const auto last = [&](std::size_t pose) {
+    return rank > 0 ? poses[pose]->rows[rank - 1].pivot : 1.0;
+  };
+  for (std::size_t pose = 0; pose < poses.size(); ++pose)
+    if (last(pose) > 10.0 * last(best))
+      best = pose;
+  return best;
 }
 
 /// Coefficients by which a row follows from others, of the rows that are `used`; the sizes of the
 /// rows are their scales.
-VectorX coefficients(const SparseMatrix& G, const std::vector<Index>& used, Index row) {
-  SparseMatrix others(G.cols(), static_cast<Index>(used.size()));
-  const SparseMatrix transposed = G.transpose();
+/// @param transposed  gradient (n_u, rows)
+VectorX coefficients(const SparseMatrix& transposed, const std::vector<Index>& used, Index row) {
+  SparseMatrix others(transposed.rows(), static_cast<Index>(used.size()));
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t k = 0; k < used.size(); ++k)
     for (SparseMatrix::InnerIterator it(transposed, used[k]); it; ++it)
@@ -243,9 +190,9 @@ VectorX coefficients(const SparseMatrix& G, const std::vector<Index>& used, Inde
 }
 
 /// "'upper', 'frame'": joints and constraints that a row nearly follows from.
-std::string partners(const Constraints& constraints, const SparseMatrix& G,
+std::string partners(const Constraints& constraints, const SparseMatrix& transposed,
                      const std::vector<Index>& used, Index row) {
-  const VectorX c = coefficients(G, used, row);
+  const VectorX c = coefficients(transposed, used, row);
   const double largest = c.size() > 0 ? c.cwiseAbs().maxCoeff() : 0.0;
   std::vector<std::string> names;
   for (std::size_t k = 0; k < used.size(); ++k) {
@@ -266,14 +213,15 @@ std::string misfit_text(const Constraints& constraints, const RankedRow& row) {
              : rounded_text(row.pivot * constraints.lever(row.row)) + " m";
 }
 
-[[noreturn]] void refuse_misaligned(const Constraints& constraints, const SparseMatrix& G,
+[[noreturn]] void refuse_misaligned(const Constraints& constraints, const SparseMatrix& transposed,
                                     const std::vector<Index>& kept, const RankedRow& row) {
   const std::string key = constraints.key(row.row), name = in_quotes(key.substr(key.find('.') + 1));
   throw ModelError(
       key,
       "joints are inconsistent: " + name + " is out of line with " +
-          partners(constraints, G, kept, row.row) + " by about " + misfit_text(constraints, row) +
-          " (" + rounded_text(row.pivot) + " of the body's lever, in " + constraints.name(row.row) +
+          partners(constraints, transposed, kept, row.row) + " by about " +
+          misfit_text(constraints, row) + " (" + rounded_text(row.pivot) +
+          " of the body's lever, in " + constraints.name(row.row) +
           "). This locks a motion that exact joints leave free. Give points and axes with more "
           "digits; or let the row give way, with solver.tolerance_assembly = " +
           rounded_text(2.0 * row.pivot) +
@@ -281,13 +229,13 @@ std::string misfit_text(const Constraints& constraints, const RankedRow& row) {
           "spring_damper; solver.force = true holds all rows as they are");
 }
 
-[[noreturn]] void refuse_locked(const Constraints& constraints, const SparseMatrix& G,
+[[noreturn]] void refuse_locked(const Constraints& constraints, const SparseMatrix& transposed,
                                 const std::vector<Index>& kept, Index row) {
   const std::string key = constraints.key(row), name = in_quotes(key.substr(key.find('.') + 1));
   throw ModelError(
       key,
       "the mechanism is locked in a singular pose: " + name + " and " +
-          partners(constraints, G, kept, row) +
+          partners(constraints, transposed, kept, row) +
           " leave bodies no way to move but an infinitely small one (bars in line, as of a flat "
           "triangle), against which no finite reaction holds (" +
           constraints.name(row) +
@@ -295,37 +243,57 @@ std::string misfit_text(const Constraints& constraints, const RankedRow& row) {
           "spring_damper; solver.force cannot hold such rows");
 }
 
-/// Which of the rows of a mask to keep.
+/// Which rows of a mechanism to keep, of those of a mask.
 struct Selection {
-  std::vector<Index> kept;        ///< independent, most so first
-  std::vector<RankedRow> dropped; ///< with their largest pivot
-  std::size_t at_start = 0;       ///< how many are independent in the start
-  std::vector<double> pivots;     ///< of those kept
-  SparseMatrix G;                 ///< gradient where they were chosen
+  std::vector<Index> kept;                        ///< independent, most so first
+  std::vector<RankedRow> dropped;                 ///< with their largest pivot
+  std::size_t at_start = 0;                       ///< how many are independent in the start
+  std::vector<double> pivots;                     ///< of those kept
+  std::shared_ptr<const SparseMatrix> transposed; ///< gradient (n_u, rows) where they were chosen
 };
 
-Selection select(const system::Regime& s, const Mask& mask, const std::vector<VectorX>& poses,
-                 double tolerance) {
-  Constraints constraints(s);
-  std::vector<Ranking> rankings;
-  for (const VectorX& y : poses)
-    rankings.push_back(rank_at(s, constraints, mask, y));
+/// The selection of one mechanism from its rankings in all poses.
+/// @param pose  the pose that the rows were chosen in
+Selection select_rows(const std::vector<const Ranking*>& rankings, double tolerance,
+                      std::size_t& pose) {
   const std::vector<double> pivots = best_pivots(rankings);
   Selection out;
   std::size_t rank = 0;
   while (rank < pivots.size() && pivots[rank] > tolerance)
     ++rank;
-  const Ranking& best = best_pose(rankings, rank);
+  pose = best_pose(rankings, rank);
   for (std::size_t k = 0; k < pivots.size(); ++k)
-    if (k < rank)
-      out.kept.push_back(best.rows[k].row);
+    if (const Index row = rankings[pose]->rows[k].row; k < rank)
+      out.kept.push_back(row);
     else
-      out.dropped.push_back({best.rows[k].row, pivots[k]});
-  out.at_start = rankings.front().rank(tolerance);
-  VectorX gaps, rates;
-  constraints.evaluate(best.y, gaps, rates);
-  out.G = constraints.gradient([](Index) { return true; });
+      out.dropped.push_back({row, pivots[k]});
+  out.at_start = rankings.front()->rank(tolerance);
   out.pivots.assign(pivots.begin(), pivots.begin() + static_cast<std::ptrdiff_t>(rank));
+  return out;
+}
+
+/// The selections of all mechanisms that have rows in the mask.
+std::vector<Selection> select(const system::Regime& s, const Mask& mask,
+                              const std::vector<VectorX>& poses, double tolerance) {
+  Constraints constraints(s);
+  std::vector<std::vector<Ranking>> rankings; // by pose, by mechanism
+  std::vector<std::shared_ptr<const SparseMatrix>> gradients;
+  for (const VectorX& y : poses) {
+    rankings.push_back(rank_at(s, constraints, mask, y));
+    gradients.push_back(std::make_shared<const SparseMatrix>(
+        constraints.gradient([](Index) { return true; }).transpose()));
+  }
+  std::vector<Selection> out;
+  for (std::size_t m = 0; m < rankings.front().size(); ++m) {
+    std::vector<const Ranking*> own;
+    for (const std::vector<Ranking>& pose : rankings)
+      own.push_back(&pose[m]);
+    if (own.front()->rows.empty())
+      continue;
+    std::size_t pose = 0;
+    out.push_back(select_rows(own, tolerance, pose));
+    out.back().transposed = gradients[pose];
+  }
   return out;
 }
 
@@ -346,7 +314,7 @@ void check_drives(const system::Regime& s, const Constraints& constraints, const
     }
   for (std::size_t k = 0; any && k < chosen.dropped.size(); ++k) {
     const Index row = chosen.dropped[k].row;
-    const VectorX c = coefficients(chosen.G, chosen.kept, row);
+    const VectorX c = coefficients(*chosen.transposed, chosen.kept, row);
     const system::CouplerData* own = drive[static_cast<std::size_t>(row)];
     std::vector<std::pair<double, const system::CouplerData*>>
         others; // factor in units of the rows
@@ -393,36 +361,63 @@ void check_drives(const system::Regime& s, const Constraints& constraints, const
   }
 }
 
-/// Refuses rows that are only nearly dependent: those of joints out of line with each other, and
-/// those that lock the mechanism in a singular pose.
-void judge_doubtful_rows(system::System& s, const system::Regime& rows,
-                         const Constraints& constraints, const Selection& held, const Mask& resting,
-                         const VectorX& start, const Fit& fit) {
+/// Refuses the rows of a mechanism that are only nearly dependent: those of joints out of line with
+/// each other, and those that lock it in a singular pose.
+void judge_doubtful_rows(const Constraints& constraints, const Selection& held, const Mask& curved,
+                         const Fit& fit) {
   // A closed pose of a locked mechanism is as far from the singular one as sqrt(gap) allows.
   const double resolved = 3.0 * std::sqrt(nearly_closed);
-  Mask doubtful(resting.size(), false), left_out = resting;
-  left_out.flip();
-  for (const RankedRow& row : held.dropped)
-    doubtful[static_cast<std::size_t>(row.row)] = true;
-  for (std::size_t k = 0; k < held.kept.size(); ++k)
-    if (held.pivots[k] < suspicious)
-      doubtful[static_cast<std::size_t>(held.kept[k])] = true;
-  for (std::size_t i = 0; i < doubtful.size(); ++i)
-    left_out[i] = left_out[i] || doubtful[i];
-  const Mask curved = curved_rows(s, rows, doubtful, left_out, start);
   const auto is_curved = [&](Index row) { return curved[static_cast<std::size_t>(row)]; };
   for (const RankedRow& row : held.dropped)
     if (is_curved(row.row))
-      refuse_locked(constraints, held.G, held.kept, row.row);
+      refuse_locked(constraints, *held.transposed, held.kept, row.row);
   for (std::size_t k = 1; k < held.kept.size(); ++k) {
     const std::vector<Index> before{held.kept.begin(),
                                     held.kept.begin() + static_cast<std::ptrdiff_t>(k)};
     if (held.pivots[k] < resolved && k >= held.at_start && is_curved(held.kept[k]))
-      refuse_locked(constraints, held.G, before, held.kept[k]);
+      refuse_locked(constraints, *held.transposed, before, held.kept[k]);
     if (!fit.force && held.pivots[k] < suspicious && held.pivots[k] < apart * held.pivots[k - 1] &&
         !is_curved(held.kept[k]))
-      refuse_misaligned(constraints, held.G, before, {held.kept[k], held.pivots[k]});
+      refuse_misaligned(constraints, *held.transposed, before, {held.kept[k], held.pivots[k]});
   }
+}
+
+/// Judges the rows of all mechanisms.
+void judge_doubtful_rows(system::System& s, const system::Regime& rows,
+                         const Constraints& constraints, const std::vector<Selection>& held,
+                         const Mask& resting, const VectorX& start, const Fit& fit) {
+  Mask doubtful(resting.size(), false), left_out = resting;
+  left_out.flip();
+  for (const Selection& one : held) {
+    for (const RankedRow& row : one.dropped)
+      doubtful[static_cast<std::size_t>(row.row)] = true;
+    for (std::size_t k = 0; k < one.kept.size(); ++k)
+      if (one.pivots[k] < suspicious)
+        doubtful[static_cast<std::size_t>(one.kept[k])] = true;
+  }
+  for (std::size_t i = 0; i < doubtful.size(); ++i)
+    left_out[i] = left_out[i] || doubtful[i];
+  const Mask curved = curved_rows(s, rows, doubtful, left_out, start);
+  for (const Selection& one : held)
+    judge_doubtful_rows(constraints, one, curved, fit);
+}
+
+/// Rows that gave way though they follow from others up to the tolerance alone: one line a joint.
+std::vector<std::string> loose_rows(const Constraints& constraints,
+                                    const std::vector<Selection>& held) {
+  std::set<std::string> told;
+  std::vector<std::string> out;
+  for (const Selection& one : held)
+    for (const RankedRow& row : one.dropped) {
+      const std::string key = constraints.key(row.row);
+      if (row.pivot > dependent && told.insert(key).second)
+        out.push_back(
+            key.substr(0, key.find('.')) + " " + in_quotes(key.substr(key.find('.') + 1)) +
+            " is out of line with " + partners(constraints, *one.transposed, one.kept, row.row) +
+            " by about " + misfit_text(constraints, row) +
+            ", less than solver.tolerance_assembly: " + constraints.name(row.row) + " gives way");
+    }
+  return out;
 }
 
 } // namespace
@@ -436,41 +431,39 @@ void drop_dependent_rows(system::System& s, const VectorX& start, const Fit& fit
   for (const system::CouplerData& c : s.couplers)
     if (rows.holds(c) && moves(c))
       resting[static_cast<std::size_t>(rows.lambda(c) - s.lambda0)] = false;
-  const Ranking now = rank_at(s, constraints, all, start);
-  if (now.rank(suspicious) == now.rows.size())
+  const std::vector<Ranking> now = rank_at(s, constraints, all, start);
+  if (std::all_of(now.begin(), now.end(),
+                  [](const Ranking& r) { return r.rank(suspicious) == r.rows.size(); }))
     return;
   const std::vector<VectorX> poses = poses_near(rows, start);
   // First what is held for ever, then what the drives move.
-  const Selection held =
+  const std::vector<Selection> held =
       select(rows, resting, poses, fit.force ? std::min(dependent, fit.tolerance) : fit.tolerance);
   judge_doubtful_rows(s, rows, constraints, held, resting, start, fit);
-  if (static_cast<Index>(held.kept.size()) == s.n_u)
-    s.notes.push_back("the constraints leave nothing to move");
   Mask rest(all.size(), false);
-  for (Index i : held.kept)
-    rest[static_cast<std::size_t>(i)] = true;
+  Index n_held = 0;
+  for (const Selection& one : held)
+    for (Index i : one.kept) {
+      rest[static_cast<std::size_t>(i)] = true;
+      ++n_held;
+    }
+  if (n_held == s.n_u)
+    s.notes.push_back("the constraints leave nothing to move");
   for (std::size_t i = 0; i < all.size(); ++i)
     rest[i] = rest[i] || !resting[i];
-  const Selection moved = resting == all ? held : select(rows, rest, poses, dependent);
-  check_drives(rows, constraints, moved, fit);
-  if (moved.kept.size() > moved.at_start)
-    s.notes.push_back(
-        "the start is a singular pose: " + std::to_string(moved.kept.size() - moved.at_start) +
-        " more degrees of freedom there than nearby");
-  if (moved.kept.size() == all.size())
-    return;
-  std::set<std::string> told;
-  std::vector<std::string> loose;
-  for (const RankedRow& row : held.dropped) {
-    const std::string key = constraints.key(row.row);
-    if (row.pivot > dependent && told.insert(key).second)
-      loose.push_back(
-          key.substr(0, key.find('.')) + " " + in_quotes(key.substr(key.find('.') + 1)) +
-          " is out of line with " + partners(constraints, held.G, held.kept, row.row) +
-          " by about " + misfit_text(constraints, row) +
-          ", less than solver.tolerance_assembly: " + constraints.name(row.row) + " gives way");
+  const std::vector<Selection> moved = resting == all ? held : select(rows, rest, poses, dependent);
+  std::vector<Index> kept;
+  std::size_t more = 0; // degrees of freedom in the start
+  for (const Selection& one : moved) {
+    check_drives(rows, constraints, one, fit);
+    kept.insert(kept.end(), one.kept.begin(), one.kept.end());
+    more += std::max(one.kept.size(), one.at_start) - one.at_start;
   }
-  std::vector<Index> kept = moved.kept;
+  if (more > 0)
+    s.notes.push_back("the start is a singular pose: " + std::to_string(more) +
+                      " more degrees of freedom there than nearby");
+  if (kept.size() == all.size())
+    return;
   std::sort(kept.begin(), kept.end());
   std::vector<std::string> names;
   system::for_each_row(s, [&](system::Row& row, bool velocity_level) {
@@ -483,7 +476,8 @@ void drop_dependent_rows(system::System& s, const VectorX& start, const Fit& fit
   });
   s.notes.push_back(std::to_string(names.size()) +
                     " redundant constraint rows, which follow from the others: " + joined(names));
-  s.notes.insert(s.notes.end(), loose.begin(), loose.end());
+  for (std::string& loose : loose_rows(constraints, held))
+    s.notes.push_back(std::move(loose));
 }
 
 } // namespace hydrodae::build
