@@ -6,7 +6,7 @@
 
 #include "bindings.h"
 #include "hydrodae/core/text.h"
-#include "hydrodae/model/methods.h"
+#include "hydrodae/core/methods.h"
 
 namespace py = pybind11;
 
@@ -67,7 +67,7 @@ void bind_tables(py::module_& module) {
       "methods",
       [] {
         py::list list;
-        for (const model::MethodTraits& m : model::methods()) {
+        for (const MethodTraits& m : methods()) {
           py::dict out;
           out["name"] = m.name;
           out["orders"] = m.orders;

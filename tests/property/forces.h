@@ -7,6 +7,7 @@
 
 #include "databases.h"
 #include "hydrodae/model/scene.h"
+#include "hydrodae/joint/types.h"
 
 namespace hydrodae::test {
 

@@ -78,7 +78,7 @@ System on_series(const SeriesSprings& springs) {
 
 /// y at the end of a second, and at 0.5 s.
 std::array<VectorX, 2> run(const Regime& s, const std::string& method) {
-  model::SolverOptions options;
+  SolverOptions options;
   options.method = method;
   options.rtol = 1e-8;
   options.end_time = 1.0;

@@ -21,6 +21,9 @@ LAYERS = [
     {"simulation.h"},
     {"check", "session"},
 ]
+# Rooms that hold the equations of motion and the methods that integrate them.
+HEART = set("core math sea hull hydro joint element control water line system linalg integrate".split())
+HEART |= {"events"}
 LEVEL = {name: level for level, names in enumerate(LAYERS) for name in names}
 ONLY = {
     "integrate": r"<(ida|nvector|sundials|sunlinsol|sunmatrix)/",
@@ -50,6 +53,24 @@ def test_lower_layers_do_not_include_higher_ones(repository: Path) -> None:
             if other != room and LEVEL[other] >= LEVEL[room]:
                 wrong.append(f"{file} includes {target}")
     assert not wrong
+
+
+def test_the_heart_knows_no_case(repository: Path) -> None:
+    """Equations, steps and methods read a System: no case, no file, no way of building it."""
+    wrong = [
+        f"{file} includes {target}"
+        for file, room, target in includes(repository)
+        if room in HEART and re.match(r'"hydrodae/(model|build|io|check|session|statics)/', target)
+    ]
+    assert not wrong
+
+
+def test_the_precompiled_header_holds_no_element(repository: Path) -> None:
+    """A change of one law must not compile every source again."""
+    text = (repository / "cpp" / "CMakeLists.txt").read_text()
+    listed = re.search(r"target_precompile_headers\(hydrodae PRIVATE ([^)]*)\)", text)
+    assert listed
+    assert {word for word in listed[1].split() if "hydrodae/" in word} == {"hydrodae/core/field.h"}
 
 
 def test_libraries_stay_in_their_rooms(repository: Path) -> None:

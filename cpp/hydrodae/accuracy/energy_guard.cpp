@@ -28,14 +28,14 @@ double believed(const measure::Balance& before, const measure::Balance& now) {
 /// motion are lost together; of the motion, relative to its size, measured ten times (slider crank
 /// with equal bars) to 200 times as much (two four-bar windows, ten seconds). Allowed are errors of
 /// some sqrt(rtol), of some hundredths with fixed steps.
-double guard_at_singular_poses(const model::SolverOptions& options) {
+double guard_at_singular_poses(const SolverOptions& options) {
   return options.step > 0.0 ? 5e-4
                             : std::min(usual, 1e-2 * std::sqrt(std::max(options.rtol, 1e-6)));
 }
 
 } // namespace
 
-EnergyGuard::EnergyGuard(const system::Regime& system, const model::SolverOptions& options)
+EnergyGuard::EnergyGuard(const system::Regime& system, const SolverOptions& options)
     : s_(system), rtol_(options.rtol), part_(options.energy_guard.value_or(usual)),
       at_singular_(options.energy_guard ? part_ : guard_at_singular_poses(options)),
       guided_(system::guided_mechanisms(system)) {}

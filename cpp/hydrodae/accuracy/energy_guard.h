@@ -5,13 +5,13 @@
 #include <functional>
 
 #include "hydrodae/measure/measure.h"
-#include "hydrodae/model/solver_options.h"
+#include "hydrodae/core/solver_options.h"
 
 namespace hydrodae::accuracy {
 
 class EnergyGuard {
 public:
-  EnergyGuard(const system::Regime& system, const model::SolverOptions& options);
+  EnergyGuard(const system::Regime& system, const SolverOptions& options);
 
   /// Is less allowed at singular poses of closed loops than elsewhere?
   bool minds_singular_poses() const { return at_singular_ < part_; }

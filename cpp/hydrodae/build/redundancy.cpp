@@ -150,7 +150,7 @@ Mask curved_rows(system::System& s, const system::Regime& rows, const Mask& aske
 
 /// Does the drive move what it drives?
 bool moves(const system::CouplerData& c) {
-  const model::Drive& d = c.drive;
+  const Drive& d = c.drive;
   return d.rate != 0.0 || d.amplitude != 0.0 || !d.time.empty() || d.python ||
          (c.velocity_level && d.constant != 0.0);
 }

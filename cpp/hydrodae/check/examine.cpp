@@ -36,7 +36,7 @@ void stir_drives(System& s) {
     if (steady)
       continue;
     const double start = c.drive(0.0)[0];
-    c.drive = model::Drive{};
+    c.drive = Drive{};
     c.drive.amplitude = 0.1;
     c.drive.period = 5.0;
     c.drive.phase = 0.7;

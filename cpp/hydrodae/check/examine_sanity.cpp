@@ -79,7 +79,7 @@ std::vector<Finding> look_at_rest(const model::Scene& scene, const System& given
 } // namespace
 
 void write_method(std::ostream& out, const model::Scene& scene) {
-  if (model::find_method(scene.solver.method))
+  if (find_method(scene.solver.method))
     return;
   try {
     model::Scene alone = scene; // without other programs

@@ -32,7 +32,7 @@ int stages_of(Family family, int order) {
 class Collocation : public Integrator {
 public:
   Collocation(Family family, const system::Regime& system, const system::Pattern& pattern,
-              const model::SolverOptions& options, double t0, const VectorX& y, const VectorX& yp)
+              const SolverOptions& options, double t0, const VectorX& y, const VectorX& yp)
       : s_(system), pattern_(linalg::condensed(system, pattern)),
         e_(system, pattern_, options.rtol), family_(family), fixed_(options.step > 0.0),
         chooses_order_(options.order == 0 && !fixed_),
@@ -343,20 +343,20 @@ void Collocation::remember(Archive& a) {
 } // namespace
 
 std::unique_ptr<Integrator> make_radau(const system::Regime& system, const system::Pattern& pattern,
-                                       const model::SolverOptions& options, double t0,
+                                       const SolverOptions& options, double t0,
                                        const VectorX& y, const VectorX& yp) {
   return std::make_unique<Collocation>(Family::radau_iia, system, pattern, options, t0, y, yp);
 }
 
 std::unique_ptr<Integrator> make_gauss(const system::Regime& system, const system::Pattern& pattern,
-                                       const model::SolverOptions& options, double t0,
+                                       const SolverOptions& options, double t0,
                                        const VectorX& y, const VectorX& yp) {
   return std::make_unique<Collocation>(Family::gauss, system, pattern, options, t0, y, yp);
 }
 
 std::unique_ptr<Integrator> make_lobatto_iiic(const system::Regime& system,
                                               const system::Pattern& pattern,
-                                              const model::SolverOptions& options, double t0,
+                                              const SolverOptions& options, double t0,
                                               const VectorX& y, const VectorX& yp) {
   return std::make_unique<Collocation>(Family::lobatto_iiic, system, pattern, options, t0, y, yp);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hydrodae/system/system.h"
+#include "hydrodae/system/regime.h"
 
 namespace hydrodae::integrate {
 

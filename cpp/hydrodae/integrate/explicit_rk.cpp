@@ -30,7 +30,7 @@ const Pair order_8{12, 8, tableaux::rk8_a, tableaux::rk8_b, tableaux::rk8_c};
 template <class Space> class ExplicitRk : public Integrator {
 public:
   ExplicitRk(const system::Regime& system, const system::Pattern& pattern,
-             const model::SolverOptions& options, double t0, const VectorX& y, const VectorX& yp)
+             const SolverOptions& options, double t0, const VectorX& y, const VectorX& yp)
       : pair_(options.order == 5 ? order_5 : order_8), fixed_(options.step > 0.0),
         max_step_(options.max_step > 0.0 ? options.max_step : options.end_time),
         idle_reactions_(Space::is_of_bodies && system::has_idle_reactions(system)),
@@ -387,7 +387,7 @@ template <class Space> void ExplicitRk<Space>::interpolate(double t, VectorX& y,
 
 std::unique_ptr<Integrator> make_explicit_rk(const system::Regime& system,
                                              const system::Pattern& pattern,
-                                             const model::SolverOptions& options, double t0,
+                                             const SolverOptions& options, double t0,
                                              const VectorX& y, const VectorX& yp) {
   if (options.coordinates == "reduced")
     return std::make_unique<ExplicitRk<tree::JointSpace>>(system, pattern, options, t0, y, yp);

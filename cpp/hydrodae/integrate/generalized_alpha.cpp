@@ -28,7 +28,7 @@ constexpr double newton_tolerance = 1e-8; ///< the step alone decides on the err
 class GeneralizedAlpha : public Integrator {
 public:
   GeneralizedAlpha(const system::Regime& system, const system::Pattern& pattern,
-                   const model::SolverOptions& options, double t0, const VectorX& y,
+                   const SolverOptions& options, double t0, const VectorX& y,
                    const VectorX& yp)
       : s_(system), pattern_(linalg::condensed(system, pattern)),
         e_(system, pattern_, newton_tolerance), newton_matrix_(system, pattern_), t_(t0), t0_(t0),
@@ -226,7 +226,7 @@ void GeneralizedAlpha::interpolate(double t, VectorX& y, VectorX& yp) {
 
 std::unique_ptr<Integrator> make_generalized_alpha(const system::Regime& system,
                                                    const system::Pattern& pattern,
-                                                   const model::SolverOptions& options, double t0,
+                                                   const SolverOptions& options, double t0,
                                                    const VectorX& y, const VectorX& yp) {
   return std::make_unique<GeneralizedAlpha>(system, pattern, options, t0, y, yp);
 }

@@ -9,7 +9,7 @@ namespace hydrodae::integrate {
 
 std::unique_ptr<Integrator> make_generalized_alpha(const system::Regime& system,
                                                    const system::Pattern& pattern,
-                                                   const model::SolverOptions& options, double t0,
+                                                   const SolverOptions& options, double t0,
                                                    const VectorX& y, const VectorX& yp);
 
 } // namespace hydrodae::integrate

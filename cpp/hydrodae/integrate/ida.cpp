@@ -104,7 +104,7 @@ double norm_by_group(N_Vector x, N_Vector w, N_Vector id) {
 
 class Ida : public Integrator {
 public:
-  Ida(const system::Regime& s, const system::Pattern& p, const model::SolverOptions& options,
+  Ida(const system::Regime& s, const system::Pattern& p, const SolverOptions& options,
       double t0, const VectorX& y0, const VectorX& yp0)
       : system(s), pattern(linalg::condensed(s, p)), rtol(share * options.rtol),
         equations(s, pattern, rtol), newton{{s, pattern}}, good(y0), good_rate(yp0), t_good(t0),
@@ -154,7 +154,7 @@ private:
       v->ops->nvwrmsnorm = [](N_Vector, N_Vector) { return 0.0; };
     return v;
   }
-  void start(const model::SolverOptions& options, const VectorX& y0, const VectorX& yp0);
+  void start(const SolverOptions& options, const VectorX& y0, const VectorX& yp0);
   std::string diagnosis(int flag);
   void accept();
   bool try_again();
@@ -214,7 +214,7 @@ int Ida::weights(N_Vector y, N_Vector w, void* user) {
   return 0;
 }
 
-void Ida::start(const model::SolverOptions& options, const VectorX& y0, const VectorX& yp0) {
+void Ida::start(const SolverOptions& options, const VectorX& y0, const VectorX& yp0) {
   y.reset(new_vector());
   yp.reset(new_vector());
   id.reset(new_vector());
@@ -391,7 +391,7 @@ linalg::Statistics Ida::statistics() const {
 } // namespace
 
 std::unique_ptr<Integrator> make_ida(const system::Regime& system, const system::Pattern& pattern,
-                                     const model::SolverOptions& options, double t0,
+                                     const SolverOptions& options, double t0,
                                      const VectorX& y, const VectorX& yp) {
   return std::make_unique<Ida>(system, pattern, options, t0, y, yp);
 }

@@ -12,7 +12,7 @@ namespace hydrodae::integrate {
 
 std::unique_ptr<Integrator> make_integrator(const system::Regime& system,
                                             const system::Pattern& pattern,
-                                            const model::SolverOptions& options, double t0,
+                                            const SolverOptions& options, double t0,
                                             const VectorX& y, const VectorX& yp) {
   static const std::map<std::string, decltype(&make_ida)> makers = {
       {"radau", make_radau}, {"explicit_rk", make_explicit_rk},

@@ -10,7 +10,7 @@
 
 #include "hydrodae/core/archive.h"
 #include "hydrodae/linalg/statistics.h"
-#include "hydrodae/model/solver_options.h"
+#include "hydrodae/core/solver_options.h"
 #include "hydrodae/system/jacobian.h"
 
 namespace hydrodae::integrate {
@@ -82,7 +82,7 @@ protected:
 /// and the pattern must outlive it. Throws SolverError when the method cannot start.
 std::unique_ptr<Integrator> make_integrator(const system::Regime& system,
                                             const system::Pattern& pattern,
-                                            const model::SolverOptions& options, double t0,
+                                            const SolverOptions& options, double t0,
                                             const VectorX& y, const VectorX& yp);
 
 } // namespace hydrodae::integrate

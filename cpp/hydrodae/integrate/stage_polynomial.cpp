@@ -1,4 +1,5 @@
 #include "hydrodae/integrate/stage_polynomial.h"
+#include "hydrodae/system/regime.h"
 
 namespace hydrodae::integrate {
 

@@ -3,6 +3,7 @@
 
 #include "hydrodae/integrate/runge_kutta.h"
 #include "hydrodae/system/system.h"
+#include "hydrodae/system/regime.h"
 
 namespace hydrodae::integrate {
 

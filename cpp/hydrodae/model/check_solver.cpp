@@ -3,7 +3,7 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/model/check.h"
-#include "hydrodae/model/methods.h"
+#include "hydrodae/core/methods.h"
 
 namespace hydrodae::model {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hydrodae/model/drive.h"
+#include "hydrodae/math/drive.h"
 
 namespace hydrodae::model {
 

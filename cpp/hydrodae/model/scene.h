@@ -37,7 +37,7 @@
 #include "hydrodae/model/input_file.h"
 #include "hydrodae/model/mode.h"
 #include "hydrodae/model/pose_table.h"
-#include "hydrodae/model/solver_options.h"
+#include "hydrodae/core/solver_options.h"
 #include "hydrodae/sea/gauge.h"
 #include "hydrodae/sea/wave.h"
 #include "hydrodae/water/morison.h"

@@ -73,7 +73,7 @@ private:
 /// Constraint rows that the assembly left out: their gaps prove whether they follow from others.
 class DroppedRowsCheck : public Guard {
 public:
-  DroppedRowsCheck(const system::Regime& s, const model::SolverOptions& options)
+  DroppedRowsCheck(const system::Regime& s, const SolverOptions& options)
       : rows_(s), allowed_(10.0 * options.tolerance_assembly +
                            (s.formulation == system::Formulation::stabilised ? 100.0 * options.rtol
                                                                              : drifted)) {}
@@ -183,7 +183,7 @@ bool has_pressed_friction(const system::Regime& s) {
 
 } // namespace
 
-PoseWatch::PoseWatch(const system::Regime& s, const model::SolverOptions& options, const VectorX& y,
+PoseWatch::PoseWatch(const system::Regime& s, const SolverOptions& options, const VectorX& y,
                      bool wanted)
     : s_(s), method_(options.method) {
   if (wanted && accuracy::has_loop(s))
@@ -191,7 +191,7 @@ PoseWatch::PoseWatch(const system::Regime& s, const model::SolverOptions& option
 }
 
 bool PoseWatch::near_singular(const Step& step) {
-  const bool short_steps = model::method_traits(method_).many_steps;
+  const bool short_steps = method_traits(method_).many_steps;
   if (!guard_ || (short_steps && ++asked_ % 4 != 0))
     return false;
   const int looks = short_steps ? 1 : 6;
@@ -210,7 +210,7 @@ Halt PoseWatch::with_remedy(Halt halt, double t, const VectorX& y, const VectorX
   if (!halt.advice.empty())
     halt.advice += "; ";
   halt.advice +=
-      model::method_traits(method_).passes_singular_poses
+      method_traits(method_).passes_singular_poses
           ? "it is next to a singular pose (a dead point, or bars in line), where the motion may "
             "have no unique way on: a smaller rtol, or a little friction, may help"
           : "it is next to a singular pose (a dead point, or bars in line): solver.method = "
@@ -231,7 +231,7 @@ void PoseWatch::remember(Archive& a) {
 
 std::vector<std::unique_ptr<Guard>> make_guards(const system::Regime& system,
                                                 const system::Pattern& pattern,
-                                                const model::SolverOptions& options,
+                                                const SolverOptions& options,
                                                 const VectorX& y,
                                                 std::unique_ptr<PoseWatch>& watch) {
   std::vector<std::unique_ptr<Guard>> guards;

@@ -45,7 +45,7 @@ class PoseWatch {
 public:
   /// @param y pose of the start, taken for a regular one
   /// @param wanted some guard will ask
-  PoseWatch(const system::Regime& system, const model::SolverOptions& options, const VectorX& y,
+  PoseWatch(const system::Regime& system, const SolverOptions& options, const VectorX& y,
             bool wanted);
 
   /// Of short steps one in four is looked at, since the way through such a pose takes more; long
@@ -78,7 +78,7 @@ private:
 /// @param y pose of the start
 std::vector<std::unique_ptr<Guard>> make_guards(const system::Regime& system,
                                                 const system::Pattern& pattern,
-                                                const model::SolverOptions& options,
+                                                const SolverOptions& options,
                                                 const VectorX& y,
                                                 std::unique_ptr<PoseWatch>& watch);
 

@@ -66,7 +66,7 @@ MethodOrder order_methods(const SceneTraits& traits) {
 }
 
 SceneTraits find_traits(const system::Regime& s, const system::Pattern& pattern,
-                        const model::SolverOptions& options, const VectorX& y, const VectorX& yp) {
+                        const SolverOptions& options, const VectorX& y, const VectorX& yp) {
   SceneTraits out;
   out.fastest_rate = integrate::fastest_rate(s, pattern, 0.0, y, yp);
   out.motion_rate = integrate::motion_rate(s, y);
@@ -111,7 +111,7 @@ void MethodChoice::accept(double h, double rate, bool own, double operations) {
 }
 
 bool MethodChoice::labours() const {
-  return more() && !takes_turn() && model::method_traits(method()).bounded_stability &&
+  return more() && !takes_turn() && method_traits(method()).bounded_stability &&
          short_steps_ >= many;
 }
 

@@ -9,7 +9,7 @@
 
 #include "hydrodae/core/archive.h"
 #include "hydrodae/core/error.h"
-#include "hydrodae/model/solver_options.h"
+#include "hydrodae/core/solver_options.h"
 #include "hydrodae/system/jacobian.h"
 
 namespace hydrodae::run {
@@ -48,7 +48,7 @@ MethodOrder order_methods(const SceneTraits& traits);
 
 /// Of a scene at its start, where y, y' are consistent.
 SceneTraits find_traits(const system::Regime& system, const system::Pattern& pattern,
-                        const model::SolverOptions& options, const VectorX& y, const VectorX& yp);
+                        const SolverOptions& options, const VectorX& y, const VectorX& yp);
 
 /// The method at work in a run, those before it and those that are left. Each method is given up
 /// once at most: what it could not pass may come again.

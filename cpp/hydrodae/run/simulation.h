@@ -174,7 +174,7 @@ private:
 
   model::Scene scene_;
   const double looser_;
-  model::SolverOptions options_; ///< of the method at work; steps as a history carries them
+  SolverOptions options_; ///< of the method at work; steps as a history carries them
   MethodChoice methods_{options_.method};
   bool approaches_events_ = false; ///< with steps that end there
   std::string fingerprint_;        ///< empty: not asked for yet

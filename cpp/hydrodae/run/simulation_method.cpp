@@ -20,7 +20,7 @@ constexpr double step_edge = 0.02;
 
 /// By the start, where the method is "auto".
 void Simulation::choose_method() {
-  const bool chosen_here = !model::find_method(options_.method);
+  const bool chosen_here = !find_method(options_.method);
   if (chosen_here && options_.coordinates == "reduced")
     methods_ = MethodChoice(MethodOrder{{"explicit_rk"}, "no other has reduced coordinates"});
   else if (chosen_here)
@@ -31,7 +31,7 @@ void Simulation::choose_method() {
 /// Whatever depends on the method is that of the one at work.
 void Simulation::use_method() {
   options_.method = methods_.method();
-  approaches_events_ = model::method_traits(options_.method).coarse_inside || options_.step > 0.0;
+  approaches_events_ = method_traits(options_.method).coarse_inside || options_.step > 0.0;
   if (poses_)
     poses_->use(options_.method);
 }
@@ -68,7 +68,7 @@ void Simulation::make_closing() {
   closing_.reset();
   if (regime_.n_lambda > 0 && regime_.formulation == system::Formulation::stabilised)
     closing_ = std::make_unique<integrate::SampleClosing>(
-        regime_, pattern_, !model::method_traits(options_.method).projects_rates);
+        regime_, pattern_, !method_traits(options_.method).projects_rates);
 }
 
 /// The next method goes on from the last accepted instant, as this one has met an error there. What

@@ -14,7 +14,7 @@ void Simulation::sample(double t, std::span<double> row) {
       return;
     if (!at_rest())
       closing_->close(at, y);
-    if (at_rest() || model::method_traits(options_.method).loose_reactions)
+    if (at_rest() || method_traits(options_.method).loose_reactions)
       closing_->hold(at, y, yp);
   };
   recorder_->sample(t, closed, row.first(recorder_->width()));

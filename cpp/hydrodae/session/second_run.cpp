@@ -125,7 +125,7 @@ bool has_firm_bounds(const model::Scene& scene) {
 SecondRunPlan plan_second_run(model::Scene& scene, const std::string& method) {
   SecondRunPlan plan;
   plan.scene = scene;
-  model::SolverOptions& o = plan.scene.solver;
+  SolverOptions& o = plan.scene.solver;
   if (!method.empty()) {
     o.method = method;
     o.order = 0;

@@ -16,7 +16,7 @@
 #include "hydrodae/session/output.h"
 #include "hydrodae/session/sea_sample.h"
 #include "hydrodae/session/second_run.h"
-#include "hydrodae/system/linear_limits.h"
+#include "hydrodae/session/linear_limits.h"
 
 namespace hydrodae {
 
@@ -34,7 +34,7 @@ class Session {
 public:
   Session(const model::Scene& scene, const Progress& progress)
       : progress_(progress), simulation_(scene),
-        limits_(system::linear_limits(scene, simulation_.system())),
+        limits_(linear_limits(scene, simulation_.system())),
         sea_sample_(scene, simulation_.channels()), row_(simulation_.width()) {
     statistics_.unknowns = simulation_.regime().n;
     statistics_.nonzeros = simulation_.nonzeros();
@@ -153,7 +153,7 @@ private:
   bool sample(double t) {
     simulation_.sample(t, row_);
     const std::vector<system::BodyState<double>>& bodies = simulation_.recorder().bodies();
-    system::watch(limits_, t, bodies);
+    watch(limits_, t, bodies);
     sea_sample_.take(t, simulation_.measured().averaged_from(), row_);
     if (comparison_)
       comparison_->first(t, simulation_.recorder().state(), [this] { return asked_to_go_on(); });
@@ -206,7 +206,7 @@ private:
     take_estimate();
     for (const std::string& note : simulation_.scale_notes())
       statistics_.notes.push_back(note);
-    const std::vector<std::string> limits = system::notes(limits_);
+    const std::vector<std::string> limits = notes(limits_);
     statistics_.notes.insert(statistics_.notes.end(), limits.begin(), limits.end());
     const std::vector<std::string> units = simulation_.unit_notes();
     statistics_.notes.insert(statistics_.notes.end(), units.begin(), units.end());
@@ -232,7 +232,7 @@ private:
   const Progress& progress_;
   Clock::time_point started_ = Clock::now(), last_checkpoint_ = started_;
   run::Simulation simulation_;
-  system::LinearLimits limits_;
+  LinearLimits limits_;
   SeaSample sea_sample_;
   std::string path_, verify_; ///< verify_: method of the second run, as it was asked for
   std::unique_ptr<io::ResultsFile> file_;
@@ -247,7 +247,7 @@ private:
 };
 
 void check_options(const model::Scene& scene, const std::string& path, const RunOptions& options) {
-  const std::vector<std::string> methods = model::adaptive_methods();
+  const std::vector<std::string> methods = adaptive_methods();
   if (!options.verify.empty() &&
       std::find(methods.begin(), methods.end(), options.verify) == methods.end())
     throw CaseError("--verify " + options.verify + ": expected a method that chooses its steps" +

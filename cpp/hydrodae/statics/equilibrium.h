@@ -2,6 +2,7 @@
 /// The static pose of the whole constrained scene in still water.
 
 #include "hydrodae/system/jacobian.h"
+#include "hydrodae/model/scene.h"
 
 namespace hydrodae::statics {
 

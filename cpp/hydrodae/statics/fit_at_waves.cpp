@@ -13,6 +13,7 @@
 #include "hydrodae/model/waves.h"
 #include "hydrodae/statics/equilibrium.h"
 #include "hydrodae/system/residual.h"
+#include "hydrodae/hydro/frequency.h"
 
 namespace hydrodae::statics {
 

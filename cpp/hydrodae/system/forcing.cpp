@@ -81,7 +81,7 @@ void Forcing::expect(const BodyData& body, bool turns, double motion) {
 
 void Forcing::add_drives(const Regime& s, double end, double output_step) {
   for (const CouplerData& c : s.couplers) {
-    const model::Drive& d = c.drive;
+    const Drive& d = c.drive;
     const bool sine = d.amplitude != 0.0 && d.period > 0.0;
     if (!sine && d.table.empty() && !d.function && d.rate == 0.0)
       continue;

@@ -37,7 +37,7 @@ template <class Visitor> void for_each_point(double a, double b, double longest,
 }
 
 /// Of the delays of a system, with the time of the fastest body that a delayed law moves.
-Kinks find_kinks(const Regime& s, const model::SolverOptions& options) {
+Kinks find_kinks(const Regime& s, const SolverOptions& options) {
   std::vector<double> delays;
   double time = INFINITY;
   for (const DelayData& d : s.delays) {
@@ -54,7 +54,7 @@ double rounding(double t) { return 256.0 * std::numeric_limits<double>::epsilon(
 
 } // namespace
 
-History::History(const Regime& system, const model::SolverOptions& options)
+History::History(const Regime& system, const SolverOptions& options)
     : s_(system), rtol_(options.rtol), ws_(system), kinks_(find_kinks(system, options)) {
   const Convolution& c = s_.hydro.convolution;
   n_U_ = c.empty() ? 0 : s_.hydro.n_moving;

@@ -16,7 +16,7 @@
 #include <functional>
 #include <vector>
 
-#include "hydrodae/model/solver_options.h"
+#include "hydrodae/core/solver_options.h"
 #include "hydrodae/system/kinematics.h"
 #include "hydrodae/system/kinks.h"
 
@@ -40,7 +40,7 @@ public:
   using Inside = std::function<void(double t, VectorX& y, VectorX& yp)>;
 
   /// Of a system whose layout does not change any more. `options`: rtol, and the longest step.
-  explicit History(const Regime& system, const model::SolverOptions& options = {});
+  explicit History(const Regime& system, const SolverOptions& options = {});
 
   /// Takes in an accepted point (t not before the last one). At the same time as the last one: the
   /// velocities have jumped there, or the loads, and the new ones hold from now on.
@@ -134,6 +134,6 @@ inline const Past* past_at(const Regime& s, double t) {
 /// nor than 1 / w of the kernels' own frequency w, within which they are smooth. Returns what it
 /// did, in words, empty: nothing. Throws ModelError (solver.step) for a fixed step that is too
 /// long.
-std::string limit_steps(const System& system, model::SolverOptions& options);
+std::string limit_steps(const System& system, SolverOptions& options);
 
 } // namespace hydrodae::system

@@ -8,7 +8,7 @@
 
 namespace hydrodae::system {
 
-std::string limit_steps(const System& s, model::SolverOptions& options) {
+std::string limit_steps(const System& s, SolverOptions& options) {
   double limit = INFINITY;
   std::string why;
   for (const DelayData& d : s.delays)

@@ -23,7 +23,7 @@
 #include "hydrodae/element/elements.h"
 #include "hydrodae/element/friction_loads.h"
 #include "hydrodae/joint/basic.h"
-#include "hydrodae/model/scene.h"
+#include "hydrodae/math/drive.h"
 #include "hydrodae/sea/kinematics.h"
 #include "hydrodae/system/hydro_data.h"
 
@@ -117,7 +117,7 @@ struct CouplerData : Row {
   std::string name;
   std::vector<Term> terms;
   double offset = 0.0;
-  model::Drive drive;
+  Drive drive;
   bool velocity_level = false; ///< then it has no mu
   bool keeps_start = false;    ///< the offset is what the terms sum up to at the start
   int of_switch = -1;          ///< in System::switches, -1: it always holds

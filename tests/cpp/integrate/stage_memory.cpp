@@ -3,6 +3,7 @@
 #include "hydrodae/integrate/stage_memory.h"
 #include "hydrodae/build/build.h"
 #include "hydrodae/integrate/runge_kutta.h"
+#include "hydrodae/system/history.h"
 
 #include <doctest/doctest.h>
 

@@ -11,6 +11,7 @@
 
 #include "../../property/scenes.h"
 #include "hydrodae/system/jacobian.h"
+#include "hydrodae/system/history.h"
 
 namespace {
 

@@ -8,6 +8,9 @@
 #include "../support.h"
 #include "hydrodae/math/bspline.h"
 #include "hydrodae/system/residual.h"
+#include "hydrodae/model/scene.h"
+#include "hydrodae/hydro/database.h"
+#include "hydrodae/element/pto_linear.h"
 
 namespace hydrodae::tests {
 namespace {
@@ -175,7 +178,7 @@ TEST_CASE("of steps that are known inside the convolution is as exact as they ar
 TEST_CASE("the next step is as long as the cubic at its end may be, by the last one") {
   const system::System built = build::build(heaving());
   const system::Regime s(built);
-  model::SolverOptions options;
+  SolverOptions options;
   std::array<double, 2> longest{};
   for (std::size_t k = 0; k < 2; ++k) {
     options.rtol = k == 0 ? 1e-6 : 1e-12;
@@ -221,7 +224,7 @@ TEST_CASE("a delayed rate that jumps is what it was before, and from an accepted
           "is") {
   const system::System built = build::build(sliding(0.5));
   const system::Regime s(built);
-  model::SolverOptions options;
+  SolverOptions options;
   options.max_step = 0.45;
   system::History history(s, options);
   VectorX y = system::initial_state(s), yp = VectorX::Zero(s.n);
@@ -317,7 +320,7 @@ TEST_CASE("the residual feels a delayed coordinate as it was") {
 
 TEST_CASE("steps are limited to the delay and to what the history carries") {
   system::System s = build::build(heaving());
-  model::SolverOptions options;
+  SolverOptions options;
   options.end_time = 100.0;
   options.rtol = 1e-6;
   CHECK(contains(system::limit_steps(s, options), "steps are at most"));

@@ -1,6 +1,6 @@
 /// Where a motion leaves linear theory.
 
-#include "hydrodae/system/linear_limits.h"
+#include "hydrodae/session/linear_limits.h"
 
 #include <doctest/doctest.h>
 
@@ -10,7 +10,7 @@ namespace {
 
 using namespace hydrodae;
 using system::BodyState;
-using system::LinearLimits;
+using session::LinearLimits;
 
 LinearLimits one_body() {
   LinearLimits limits;
@@ -39,13 +39,13 @@ constexpr double degree = pi / 180.0;
 
 TEST_CASE("limits count from the mean pose, its yaw and place included") {
   LinearLimits limits = one_body();
-  system::watch(limits, 0.0, state(Vector3(4.9, 0.0, 1.4), 0.5, 14.0 * degree));
-  CHECK(system::notes(limits).empty());
-  system::watch(limits, 2.5, state(Vector3::Zero(), 0.5 + 16.0 * degree, 0.0));
-  system::watch(limits, 3.0, state(Vector3::Zero(), 0.5, 40.0 * degree));
-  system::watch(limits, 4.0, state(Vector3(0.0, 0.0, -1.6), 0.5, 17.0 * degree));
-  system::watch(limits, 5.0, state(Vector3(-3.0, 4.2, 0.0), 0.5, 0.0));
-  const std::vector<std::string> notes = system::notes(limits);
+  session::watch(limits, 0.0, state(Vector3(4.9, 0.0, 1.4), 0.5, 14.0 * degree));
+  CHECK(session::notes(limits).empty());
+  session::watch(limits, 2.5, state(Vector3::Zero(), 0.5 + 16.0 * degree, 0.0));
+  session::watch(limits, 3.0, state(Vector3::Zero(), 0.5, 40.0 * degree));
+  session::watch(limits, 4.0, state(Vector3(0.0, 0.0, -1.6), 0.5, 17.0 * degree));
+  session::watch(limits, 5.0, state(Vector3(-3.0, 4.2, 0.0), 0.5, 0.0));
+  const std::vector<std::string> notes = session::notes(limits);
   REQUIRE(notes.size() == 3);
   CHECK(notes[0] == "beyond linear theory: body 'float' turns by 16 deg at t = 2.5 s, at most 40 "
                     "deg (limit 15 deg)");
@@ -56,8 +56,8 @@ TEST_CASE("limits count from the mean pose, its yaw and place included") {
 TEST_CASE("where the hydrodynamics follow the yaw, tilt alone counts") {
   LinearLimits limits = one_body();
   limits.bodies[0].free_yaw = true;
-  system::watch(limits, 0.0, state(Vector3::Zero(), 2.0, 14.0 * degree));
-  CHECK(system::notes(limits).empty());
-  system::watch(limits, 1.0, state(Vector3::Zero(), 2.0, 16.0 * degree));
-  CHECK(system::notes(limits).size() == 1);
+  session::watch(limits, 0.0, state(Vector3::Zero(), 2.0, 14.0 * degree));
+  CHECK(session::notes(limits).empty());
+  session::watch(limits, 1.0, state(Vector3::Zero(), 2.0, 16.0 * degree));
+  CHECK(session::notes(limits).size() == 1);
 }

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hydrodae::model {
+namespace hydrodae {
 
 struct MethodTraits {
   std::string_view name;
@@ -45,4 +45,4 @@ std::vector<std::string_view> method_names();
 /// Those that choose their steps.
 std::vector<std::string> adaptive_methods();
 
-} // namespace hydrodae::model
+} // namespace hydrodae

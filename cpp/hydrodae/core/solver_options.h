@@ -5,9 +5,9 @@
 #include <string>
 
 #include "hydrodae/core/field.h"
-#include "hydrodae/model/methods.h"
+#include "hydrodae/core/methods.h"
 
-namespace hydrodae::model {
+namespace hydrodae {
 
 struct SolverOptions {
   static constexpr std::string_view doc =
@@ -126,4 +126,4 @@ struct SolverOptions {
   }
 };
 
-} // namespace hydrodae::model
+} // namespace hydrodae

@@ -8,7 +8,7 @@
 #include "hydrodae/core/field.h"
 #include "hydrodae/math/spline.h"
 
-namespace hydrodae::model {
+namespace hydrodae {
 
 /// A function of time that a coordinate follows, with its first two derivatives.
 ///
@@ -89,4 +89,4 @@ struct Drive {
   }
 };
 
-} // namespace hydrodae::model
+} // namespace hydrodae

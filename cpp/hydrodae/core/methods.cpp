@@ -1,11 +1,11 @@
-#include "hydrodae/model/methods.h"
+#include "hydrodae/core/methods.h"
 
 #include <algorithm>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 
-namespace hydrodae::model {
+namespace hydrodae {
 
 namespace {
 
@@ -96,4 +96,4 @@ std::vector<std::string> adaptive_methods() {
   return out;
 }
 
-} // namespace hydrodae::model
+} // namespace hydrodae

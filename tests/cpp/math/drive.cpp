@@ -1,10 +1,9 @@
-#include "hydrodae/model/drive.h"
+#include "hydrodae/math/drive.h"
 
 #include <doctest/doctest.h>
 
 using namespace hydrodae;
 using doctest::Approx;
-using model::Drive;
 
 namespace {
 

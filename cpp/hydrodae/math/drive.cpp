@@ -1,8 +1,8 @@
-#include "hydrodae/model/drive.h"
+#include "hydrodae/math/drive.h"
 
 #include "hydrodae/core/text.h"
 
-namespace hydrodae::model {
+namespace hydrodae {
 
 std::string Drive::text() const {
   std::string out;
@@ -30,4 +30,4 @@ std::string Drive::text() const {
   return out.empty() ? "0" : out;
 }
 
-} // namespace hydrodae::model
+} // namespace hydrodae

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "hydrodae/system/kinematics.h"
+#include "hydrodae/model/scene.h"
 
-namespace hydrodae::system {
+namespace hydrodae::session {
 
 /// A measure of one body that grew beyond its limit.
 struct Crossing {
@@ -57,12 +58,12 @@ struct LinearLimits {
 /// What to watch in a scene. The draught is not in the database: displaced volume over waterplane,
 /// or the cube root of the volume where that is less, stands for it. The wave length is the mean
 /// over all components, weighted by energy.
-LinearLimits linear_limits(const model::Scene& scene, const System& system);
+LinearLimits linear_limits(const model::Scene& scene, const system::System& system);
 
 /// Takes one sample: the states of all bodies at time t.
-void watch(LinearLimits& limits, double t, const std::vector<BodyState<double>>& states);
+void watch(LinearLimits& limits, double t, const std::vector<system::BodyState<double>>& states);
 
 /// A sentence for each measure that went beyond its limit, with body, time and value.
 std::vector<std::string> notes(const LinearLimits& limits);
 
-} // namespace hydrodae::system
+} // namespace hydrodae::session

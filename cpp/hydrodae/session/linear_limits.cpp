@@ -1,4 +1,4 @@
-#include "hydrodae/system/linear_limits.h"
+#include "hydrodae/session/linear_limits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/model/waves.h"
 
-namespace hydrodae::system {
+namespace hydrodae::session {
 
 namespace {
 
@@ -50,13 +50,13 @@ double draught(const hydro::Database& database, const hydro::Hydrostatics& h) {
 
 } // namespace
 
-LinearLimits linear_limits(const model::Scene& scene, const System& s) {
+LinearLimits linear_limits(const model::Scene& scene, const system::System& s) {
   LinearLimits out;
   for (const model::Mode& mode : scene.modes) {
     if (mode.stiffness == 0.0)
       continue;
     const auto body = std::find_if(s.bodies.begin(), s.bodies.end(),
-                                   [&](const BodyData& b) { return b.name == mode.body; });
+                                   [&](const system::BodyData& b) { return b.name == mode.body; });
     out.modes.push_back(
         {static_cast<int>(body - s.bodies.begin()), in_quotes(mode.body) + ", mode " + mode.name,
          std::sqrt(LinearLimits::softening * mode.stiffness / mode.mass), std::nullopt});
@@ -65,8 +65,8 @@ LinearLimits linear_limits(const model::Scene& scene, const System& s) {
     return out;
   if (scene.sea.phase == "fixed" && !scene.waves.empty())
     out.tenth_wave = 0.1 * wave_length(scene);
-  for (const HydroBody& hb : s.hydro.bodies) {
-    const BodyData& b = s.bodies[static_cast<std::size_t>(hb.body)];
+  for (const system::HydroBody& hb : s.hydro.bodies) {
+    const system::BodyData& b = s.bodies[static_cast<std::size_t>(hb.body)];
     if (!hb.moves || b.is_mode())
       continue;
     LinearLimits::Body watched;
@@ -74,7 +74,7 @@ LinearLimits linear_limits(const model::Scene& scene, const System& s) {
     watched.name = b.name;
     watched.mean = rotation_about_axis<double>(2, hb.yaw);
     watched.place << b.position[0], b.position[1], b.reference[2];
-    watched.free_yaw = s.hydro.axes == HydroAxes::yaw;
+    watched.free_yaw = s.hydro.axes == system::HydroAxes::yaw;
     const model::Body& body = scene.bodies[static_cast<std::size_t>(hb.body)];
     const bool follows_rise =
         body.hydrostatics_by_mesh() && hb.table >= 0 &&
@@ -88,9 +88,9 @@ LinearLimits linear_limits(const model::Scene& scene, const System& s) {
   return out;
 }
 
-void watch(LinearLimits& limits, double t, const std::vector<BodyState<double>>& states) {
+void watch(LinearLimits& limits, double t, const std::vector<system::BodyState<double>>& states) {
   for (LinearLimits::Body& b : limits.bodies) {
-    const BodyState<double>& state = states[static_cast<std::size_t>(b.body)];
+    const system::BodyState<double>& state = states[static_cast<std::size_t>(b.body)];
     // cos(angle): of the whole turn from the mean pose, or of the tilt of the z axis.
     const double cosine =
         b.free_yaw ? state.R(2, 2) : 0.5 * (b.mean.cwiseProduct(state.R).sum() - 1.0);
@@ -127,4 +127,4 @@ std::vector<std::string> notes(const LinearLimits& limits) {
   return out;
 }
 
-} // namespace hydrodae::system
+} // namespace hydrodae::session
