@@ -26,7 +26,7 @@ from hydrodae.hdb.database.layout import (
     refused,
     write_dataset,
 )
-from hydrodae.hdb.database.second_order import read_second_order, write_second_order
+from hydrodae.hdb.database.second_order_file import read_second_order, write_second_order
 from hydrodae.hdb.database.tables import Body, Tables
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import bodies_of

@@ -12,7 +12,8 @@ import numpy as np
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.labels import DOFS
-from hydrodae.hdb.readers.quadratic import Entries, Setting
+from hydrodae.hdb.readers.quadratic import Entries
+from hydrodae.hdb.readers.setting import Setting
 from hydrodae.hdb.readers.text import number, read_lines
 from hydrodae.support.arrays import Array
 

@@ -17,7 +17,8 @@ from hydrodae.hdb.database.extra import SourceTable
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.second_order import OF_ALL_BODIES
 from hydrodae.hdb.labels import DOFS
-from hydrodae.hdb.readers.quadratic import Entries, Setting
+from hydrodae.hdb.readers.quadratic import Entries
+from hydrodae.hdb.readers.setting import Setting
 from hydrodae.support.arrays import Array, Complex
 
 #: Words of a name that say how the load was computed.

@@ -13,7 +13,8 @@ import numpy as np
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.readers import wamit_tables as tables
-from hydrodae.hdb.readers.quadratic import Entries, Setting
+from hydrodae.hdb.readers.quadratic import Entries
+from hydrodae.hdb.readers.setting import Setting
 from hydrodae.hdb.readers.text import read_lines
 
 ROW = "two frequencies, two headings, mode, modulus, phase, real and imaginary part"

@@ -17,7 +17,8 @@ from hydrodae.hdb.labels import DOFS
 from hydrodae.hdb.readers.orcawave import SYMMETRIES, Vessel
 from hydrodae.hdb.readers.orcawave_units import units_of
 from hydrodae.hdb.readers.orcayaml import read_yaml
-from hydrodae.hdb.readers.quadratic import Entries, Setting
+from hydrodae.hdb.readers.quadratic import Entries
+from hydrodae.hdb.readers.setting import Setting
 from hydrodae.hdb.readers.symmetric import mirrored_forces, turned_forces
 from hydrodae.hdb.readers.text import read_text
 from hydrodae.support.arrays import Array, Complex

@@ -26,7 +26,8 @@ from hydrodae.hdb.readers import (
     orcawave_drift,
     wamit_drift,
 )
-from hydrodae.hdb.readers.quadratic import Entries, Setting, joined, tabulate
+from hydrodae.hdb.readers.quadratic import Entries, joined, tabulate
+from hydrodae.hdb.readers.setting import Setting
 from hydrodae.hdb.readers.source import Scales, SourceData
 
 READERS: dict[str, ModuleType] = {

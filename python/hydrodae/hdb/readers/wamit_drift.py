@@ -15,7 +15,8 @@ from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.second_order import KINDS, OF_ALL_BODIES
 from hydrodae.hdb.labels import read_labels
 from hydrodae.hdb.readers import wamit_tables as tables
-from hydrodae.hdb.readers.quadratic import Entries, Setting
+from hydrodae.hdb.readers.quadratic import Entries
+from hydrodae.hdb.readers.setting import Setting
 from hydrodae.hdb.readers.wamit import wamit_stem
 from hydrodae.hdb.readers.wamit_control import beside, read_control
 
