@@ -193,13 +193,24 @@ def of_calibration(found: Calibration) -> dict[str, Any]:
 
 
 def of_database(database: HydroDatabase, report: CheckReport) -> dict[str, Any]:
-    """Bodies, coordinates, fits and findings of a database."""
+    """Bodies, coordinates, fits, tables of second order and findings of a database."""
     return {
         "source": database.source,
         "bodies": list(database.bodies),
         "coordinates": database.coordinates,
         "omega": database.omega,
         "fits": {name: fit.report for name, fit in database.memory.items()},
+        "second_order": {
+            kind: {
+                "coordinates": table.coordinates,
+                "method": table.method,
+                "omega": table.omega,
+                "headings": [table.heading1, table.heading2],
+                "computed": float(table.computed.mean()),
+                "source": table.source,
+            }
+            for kind, table in database.second_order.items()
+        },
         "findings": [
             {
                 "severity": finding.severity,

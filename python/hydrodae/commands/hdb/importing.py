@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from pathlib import Path
 
 from hydrodae.commands.arguments import parse_band, parse_file, parse_point
 from hydrodae.commands.hdb.options import (
@@ -127,6 +128,14 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="displaced volume [m3] that goes with --stiffness. May be repeated",
     )
     add.add_argument(
+        "--second-order",
+        metavar="[NAME=]FILE",
+        action="append",
+        default=[],
+        help="mean drift or loads of two waves (QTF) from a file or folder of WAMIT, Nemoh, "
+        "HydroStar, AQWA or OrcaFlex. Those beside SOURCE are read without it. May be repeated",
+    )
+    add.add_argument(
         "--accept",
         metavar="CHECK",
         action="append",
@@ -156,6 +165,14 @@ def _volume(text: str) -> tuple[str, float]:
     return name, volume
 
 
+def _by_body(option: str, texts: list[str]) -> dict[str, Sequence[str | Path]]:
+    found: dict[str, Sequence[str | Path]] = {}
+    for text in texts:
+        name, file = parse_file(option, text, alone=True)
+        found[name] = [*found.get(name, []), file]
+    return found
+
+
 def run(args: argparse.Namespace) -> int:
     """Import a source; returns 2 if a check found an error and nothing was written, else 0."""
     names = None if args.bodies is None else [n.strip() for n in args.bodies.split(",")]
@@ -173,6 +190,7 @@ def run(args: argparse.Namespace) -> int:
             keep=args.keep,
             cut=args.cut,
             symmetric=None if args.symmetric is None else args.symmetric.split(","),
+            second_order=_by_body("--second-order", args.second_order),
             band=_band(args),
             progress=progress,
         )

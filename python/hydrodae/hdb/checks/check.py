@@ -12,6 +12,7 @@ import numpy as np
 
 from hydrodae.hdb.checks.band import LEAST_DAMPING, Band, damping_sizes, felt_band, inside
 from hydrodae.hdb.checks.depth import depth_findings
+from hydrodae.hdb.checks.drift import drift_findings
 from hydrodae.hdb.checks.energy import energy_findings
 from hydrodae.hdb.checks.fits import fit_findings
 from hydrodae.hdb.checks.ground import of_what_moves
@@ -48,7 +49,8 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
     -------
     CheckReport
         Of the rigid coordinates, in the order grid, headings, memory, symmetry, energy, irregular
-        frequencies, garbled rows, sizes, places, causality, spikes, fits, long waves, hulls.
+        frequencies, garbled rows, sizes, places, causality, spikes, fits, long waves, hulls,
+        tables of second order.
     """
     modes = sum(label.is_mode for label in database.labels)
     if modes:
@@ -78,6 +80,7 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
             *fit_findings(database),
             *long_wave_findings(database, judged),
             *hull_findings(database),
+            *drift_findings(database),
         ]
     )
 

@@ -15,6 +15,7 @@ from hydrodae.hdb.database import coordinates as co
 from hydrodae.hdb.database import files
 from hydrodae.hdb.database.convolution import moved_kernel
 from hydrodae.hdb.database.radiation_kernel import LIMIT, make_kernel
+from hydrodae.hdb.database.second_order import SecondOrderTable
 from hydrodae.hdb.database.summary import summary
 from hydrodae.hdb.database.tables import Body, Tables
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
@@ -73,6 +74,11 @@ class HydroDatabase(Tables):
             },
             kernel=None if self.kernel is None else self.kernel.selected(labels),
             memory=_selected_fits(self.memory, labels),
+            second_order={
+                kind: kept
+                for kind, table in self.second_order.items()
+                if (kept := table.selected(labels)) is not None
+            },
         )
 
     def reordered(self, labels: Sequence[str]) -> Self:
@@ -123,6 +129,10 @@ class HydroDatabase(Tables):
                 key: replace(fit, inputs=rename(fit.inputs), outputs=rename(fit.outputs))
                 for key, fit in self.memory.items()
             },
+            second_order={
+                kind: replace(table, coordinates=rename(table.coordinates))
+                for kind, table in self.second_order.items()
+            },
         )
 
     def moved_to(self, points: Mapping[str, ArrayLike]) -> Self:
@@ -170,6 +180,7 @@ class HydroDatabase(Tables):
             bodies=bodies,
             kernel=None if self.kernel is None else moved_kernel(self.kernel, shifts),
             memory={key: _moved_fit(key, fit, shifts) for key, fit in self.memory.items()},
+            second_order={kind: t.moved(shifts) for kind, t in self.second_order.items()},
         )
 
     def at_frequencies(self, kept: NDArray[np.bool_]) -> Self:
@@ -216,6 +227,10 @@ class HydroDatabase(Tables):
             co.check_body(name, bodies)
             bodies[name] = replace(bodies[name], hydrostatics=value)
         return replace(self, bodies=bodies)
+
+    def with_second_order(self, tables: Mapping[str, SecondOrderTable]) -> Self:
+        """Return a copy with tables of second order, in place of those of the same kinds."""
+        return replace(self, second_order={**self.second_order, **tables})
 
     def with_meshes(self, panels: Mapping[str, ArrayLike]) -> Self:
         """Return a copy that keeps the wetted surfaces (n, 4, 3) [m] of some bodies."""

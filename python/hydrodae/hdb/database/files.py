@@ -26,6 +26,7 @@ from hydrodae.hdb.database.layout import (
     refused,
     write_dataset,
 )
+from hydrodae.hdb.database.second_order_file import read_second_order, write_second_order
 from hydrodae.hdb.database.tables import Body, Tables
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import bodies_of
@@ -109,6 +110,8 @@ def write(database: Tables, path: str | Path, *, kernel: bool = True, single: bo
             _write_group(f.create_group(f"memory/{name}"), FIT, fit, {})
         if database.extra:
             write_extra(f.create_group("extra"), database.extra)
+        if database.second_order:
+            write_second_order(f.create_group("second_order"), database.second_order)
     os.replace(partial, target)
 
 
@@ -217,6 +220,7 @@ def _read(f: h5py.File) -> dict[str, Any]:
         kernel=None if stored is None else _read_kernel(stored),
         memory={name: _read_fit(name, fits[name]) for name in fits},
         extra=read_extra(f["extra"]) if "extra" in f else {},
+        second_order=read_second_order(f["second_order"]) if "second_order" in f else {},
         repairs=tuple(_text(f.attrs.get("repairs", "")).splitlines()),
         **texts,
         **water,

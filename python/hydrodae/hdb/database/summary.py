@@ -35,6 +35,7 @@ def summary(db: Tables) -> str:
         lines.append(f"  memory     {name}: {fit_summary(fit)}")
     for name, table in db.extra.items():
         lines.append(f"  also       {name} over {', '.join(table.dims)}, as in the source")
+    lines += [f"  order 2    {table.summary()}" for table in db.second_order.values()]
     lines += [f"  repaired   {text}" for text in db.repairs]
     return "\n".join(lines)
 

@@ -13,6 +13,7 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import coordinates as co
 from hydrodae.hdb.database.convolution import RadiationKernel
 from hydrodae.hdb.database.extra import SourceTable
+from hydrodae.hdb.database.second_order import SecondOrderTable
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import DOFS, Label, bodies_of, modes_of, read_labels
 from hydrodae.hdb.relations import irf
@@ -113,6 +114,8 @@ class Tables:
         Fits of the radiation memory, by name.
     extra : dict of SourceTable
         Kochin functions and drift forces as the source wrote them (`hydrodae.hdb.database.extra`).
+    second_order : dict of SecondOrderTable
+        Mean drift and quadratic transfer functions, by "mean", "difference" and "sum".
     """
 
     coordinates: tuple[str, ...]
@@ -138,6 +141,7 @@ class Tables:
     kernel: RadiationKernel | None = None
     memory: dict[str, ExponentialMemory] = field(default_factory=dict)
     extra: dict[str, SourceTable] = field(default_factory=dict)
+    second_order: dict[str, SecondOrderTable] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.coordinates = tuple(self.coordinates)
@@ -189,6 +193,12 @@ class Tables:
                 )
         if nw == 0 or self.omega[0] <= 0.0 or not np.all(np.diff(self.omega) > 0.0):
             raise DatabaseError("omega must be ascending and > 0 [rad/s]").about("frequencies")
+        for kind, table in self.second_order.items():
+            if kind != table.kind or not set(table.coordinates) <= set(self.coordinates):
+                raise DatabaseError(
+                    f"second order, {kind}: a table of {table.kind} of {table.coordinates} does "
+                    f"not fit the coordinates {self.coordinates}"
+                ).about("label", kind)
         if not (self.rho > 0.0 and self.gravity > 0.0 and self.water_depth > 0.0):
             raise DatabaseError("rho, gravity and water_depth must be > 0").about("value", "water")
 

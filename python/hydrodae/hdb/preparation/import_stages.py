@@ -26,6 +26,7 @@ from hydrodae.hdb.readers.finishing import finish
 from hydrodae.hdb.readers.kinds import kind
 from hydrodae.hdb.readers.reading import read, read_source
 from hydrodae.hdb.readers.reference import without_moments
+from hydrodae.hdb.readers.second_order import named
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.readers.stiffness_file import read_stiffness
 
@@ -65,6 +66,7 @@ class Import:
     keep: str | None = None
     cut: float | None = None
     symmetric: Sequence[str] | None = None
+    second_order: dict[str, Sequence[str | Path]] = field(default_factory=dict)
     band: Band | Callable[[HydroDatabase], Band] | None = None
     data: SourceData | None = None
     database: HydroDatabase = field(init=False)
@@ -160,6 +162,28 @@ def complete(state: Import) -> None:
     if state.data is not None:
         state.database = finish(state.data)
         state.findings = state.data.findings
+
+
+def add_second_order(state: Import) -> None:
+    """Take the `database`; add the tables of second order of the files that are named.
+
+    They replace those of their kinds that lay beside the source. Names of bodies are the new ones.
+    """
+    if not state.second_order:
+        return
+    old = {new: old for old, new in state.new_names.items()}
+    for name in state.second_order:
+        if name:
+            check_body(name, old)
+    files = {old.get(name, ""): paths for name, paths in state.second_order.items()}
+    findings: list[Finding] = []
+    found = named(files, state.data or state.database, findings)
+    state.findings += findings
+    for which in sorted(set(found) & set(state.database.second_order)):
+        before = state.database.second_order[which].source
+        text = f"{which}: {found[which].source} in place of {before}"
+        state.findings.append(Finding("info", "second order", text))
+    state.database = state.database.with_second_order(found)
 
 
 def arrange(state: Import) -> None:

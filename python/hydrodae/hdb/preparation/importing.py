@@ -32,6 +32,7 @@ def import_database(
     keep: str | None = None,
     cut: float | None = None,
     symmetric: Sequence[str] | None = None,
+    second_order: Mapping[str, Sequence[str | Path]] | None = None,
     band: Band | Callable[[HydroDatabase], Band] | None = None,
     progress: Callable[[str], None] | None = None,
 ) -> tuple[HydroDatabase, CheckReport]:
@@ -70,6 +71,9 @@ def import_database(
         Leave out the frequencies above [rad/s], before anything is estimated.
     symmetric : sequence of "y", "x", optional
         Planes y = 0, x = 0 of symmetry of the hulls, whose mirror images add headings.
+    second_order : dict of lists of paths, optional
+        Files or folders with mean drift and loads of two waves, by the body that they are of; ""
+        where the files say it. Those beside the source, of the same run, are read without it.
     band : (low, high) or function of the database, optional
         Frequencies [rad/s] that the device feels; see `hydrodae.hdb.check`.
     progress : callable, optional
@@ -102,6 +106,7 @@ def import_database(
         keep=keep,
         cut=cut,
         symmetric=symmetric,
+        second_order=dict(second_order or {}),
         band=band,
     )
     pipeline.run(pipeline.IMPORT, state, progress)

@@ -26,6 +26,7 @@ IMPORT: Stages[Import] = (
     ("name the bodies", tables.name_bodies),
     ("state the points", tables.state_points),
     ("symmetrise and extend to infinity", tables.complete),
+    ("second order", tables.add_second_order),
     ("arrange", tables.arrange),
     ("hydrostatics", tables.add_hydrostatics),
     ("keep", tables.keep),

@@ -62,6 +62,7 @@ def finish(data: SourceData) -> HydroDatabase:
         generator=f"hydrodae {version()}",
         title=data.title,
         extra=data.extra,
+        second_order=data.second_order,
     )
 
 

@@ -19,16 +19,18 @@ OWN_TABLES = (
     "let it write tables in WAMIT's format (.1, .3, .hst, or its .out), which are read here"
 )
 NO_TABLES = "holds no added mass and damping; name the .AH1 or .LIS of the run"
+#: Beside a database they are read.
+DRIFT = "its tables of second order are read with --second-order"
 #: What files are by suffix, and what to do.
 FOREIGN = {
     ".hdb": ("Diodore", CONVERTER),
     ".hdf": ("Diodore or HydroStar", f"{OWN_TABLES}; of Diodore's .hdb, {CONVERTER}"),
-    ".rao": ("HydroStar", OWN_TABLES),
+    ".rao": ("HydroStar", f"{OWN_TABLES}; {DRIFT}"),
     ".hyd": ("MOSES", f"no converter of it is known here: {OWN_TABLES}"),
     ".mat": ("MATLAB", CONVERTER),
     ".foam": ("FOAMM", CONVERTER),
     ".bem": ("BEMRosetta", "save it as WAMIT tables (.1, .3, .hst) there"),
-    ".qtf": ("AQWA (quadratic transfer functions)", NO_TABLES),
+    ".qtf": ("AQWA (quadratic transfer functions)", f"{NO_TABLES}; {DRIFT}"),
     ".ah2": ("AQWA (drift forces)", NO_TABLES),
     ".owr": ("OrcaWave (its results, binary)", ORCAFLEX),
     ".owd": ("OrcaWave (a model without results)", f"run it; then {ORCAFLEX}"),

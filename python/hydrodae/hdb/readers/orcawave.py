@@ -96,7 +96,7 @@ def read_orcawave(path: Path) -> SourceData:
     findings: list[Finding] = []
     units = units_of(path, model.get("General") or {})
     rho, gravity, depth, files = water_of(path, model, findings)
-    bodies = [_Vessel(path, vessel, depth, gravity, units) for vessel in types]
+    bodies = [Vessel(path, vessel, depth, gravity, units) for vessel in types]
     names = unique_names([str(b.name).removesuffix(" type") for b in bodies])
     omega, heading = bodies[0].omega, bodies[0].heading
     for body in bodies[1:]:
@@ -145,8 +145,8 @@ def read_orcawave(path: Path) -> SourceData:
     return data
 
 
-class _Vessel:
-    """Tables of one vessel type, at its first draught, in SI units."""
+class Vessel:
+    """Tables of one vessel type, at its first draught, in SI units, and what reads its numbers."""
 
     def __init__(
         self, path: Path, vessel: dict[str, Any], depth: float, gravity: float, units: Units
@@ -161,30 +161,32 @@ class _Vessel:
                 f"{self.name}: Symmetry {self.symmetry!r}: expected one of "
                 f"{', '.join(SYMMETRIES)}; save all directions in OrcaFlex (Symmetry: None)"
             ).about("unsupported", "Symmetry")
-        draught = self._entry(vessel, "Draughts")[0]
+        draught = self.entry(vessel, "Draughts")[0]
         self.draught = draught
         self.waves = vessel.get("WavesReferredToBy", "period (s)")
-        entries = self._entry(draught, _TABLES)
-        w = np.array([self._omega(e.get("AMDPeriodOrFrequency")) for e in entries])
+        entries = self.entry(draught, _TABLES)
+        w = np.array([self.omega_of(e.get("AMDPeriodOrFrequency")) for e in entries])
         a = np.array([self._square(e, "AddedMassMatrixX", units.mass) for e in entries])
         b = np.array([self._square(e, "DampingX", units.force / units.length) for e in entries])
         usual = np.isfinite(w) & (w > 0.0)
         order = np.flatnonzero(usual)[np.argsort(w[usual])]
         self.omega, self.added_mass, self.damping = w[order], a[order], b[order]
         self.at_infinity = a[np.isinf(w)][0] if np.isinf(w).any() else None
-        self.point = self._vector(draught, "ReferenceOrigin")
+        self.point = self.vector(draught, "ReferenceOrigin")
         self.heading, self.force = self._forces(vessel, depth, gravity)
 
-    def _entry(self, where: dict[str, Any], key: str) -> list[Any]:
+    def entry(self, where: dict[str, Any], key: str) -> list[Any]:
+        """Return a list that must be there."""
         value = where.get(key)
         if not isinstance(value, list) or not value:
             raise DatabaseError(f"{self.name}: no {key}").about("missing", key)
         return value
 
-    def _vector(self, where: dict[str, Any], key: str) -> Array:
-        return self.units.length * self._numbers(where.get(key), key, (3,))
+    def vector(self, where: dict[str, Any], key: str) -> Array:
+        """Return a place (3,) [m]."""
+        return self.units.length * self.numbers(where.get(key), key, (3,))
 
-    def _numbers(self, value: Any, key: str, shape: tuple[int, ...]) -> Array:
+    def numbers(self, value: Any, key: str, shape: tuple[int, ...]) -> Array:
         """Return a list, or a list of rows, as an array of that shape."""
         rows = value if isinstance(value, list) else []
         flat = [v for row in rows for v in (row if isinstance(row, list) else [row])]
@@ -198,7 +200,8 @@ class _Vessel:
             raise DatabaseError(f"{self.name}: {key}: expected {size} numbers").about("shape", key)
         return np.array(rows, dtype=float)
 
-    def _omega(self, value: Any) -> float:
+    def omega_of(self, value: Any) -> float:
+        """Return a period or frequency of the file as a frequency [rad/s]."""
         if isinstance(value, str) and value.lower() == "infinity":
             value = np.inf
         if not isinstance(value, float) or np.isnan(value):
@@ -215,26 +218,22 @@ class _Vessel:
 
     def _square(self, entry: dict[str, Any], first: str, unit: float) -> Array:
         rows = next((v for key, v in entry.items() if key.startswith(first)), None)
-        table = self._numbers(rows, first, (6, 6))
-        return unit * table * np.outer(self._scale, self._scale)
+        table = self.numbers(rows, first, (6, 6))
+        return unit * table * np.outer(self.scale, self.scale)
 
     @property
-    def _scale(self) -> Array:
+    def scale(self) -> Array:
         """Signs of the axes, and the length by which moments and angles are another unit."""
         return self.sign * self.units.length ** np.array([0.0, 0.0, 0.0, 1.0, 1.0, 1.0])
 
-    def _forces(
-        self, vessel: dict[str, Any], depth: float, gravity: float
-    ) -> tuple[Array, Complex]:
-        """Headings [rad] and excitation (nw, nh, 6) about the reference origin."""
-        loads = self.draught.get("LoadRAOs") or {}
-        blocks = self._entry(loads, "RAOs")
-        origin, phase_origin = loads.get("RAOOrigin"), loads.get("PhaseOrigin")
-        if not np.allclose(self._vector(loads, "RAOOrigin"), self.point, atol=1e-6):
-            raise DatabaseError(
-                f"{self.name}: RAOOrigin {origin} is not ReferenceOrigin "
-                f"{self.point.tolist()}: export both about one point"
-            ).about("point", self.name)
+    def phases(self, vessel: dict[str, Any]) -> tuple[float, float]:
+        """Return the factor of phases to those of e^{+iwt} [rad], and the sign of the wave.
+
+        Raises
+        ------
+        DatabaseError
+            An unknown convention.
+        """
         unit = vessel.get("RAOPhaseUnitsConvention", "degrees")
         relative = vessel.get("RAOPhaseRelativeToConvention", "crest")
         if unit not in ("degrees", "radians") or relative not in ("crest", "trough"):
@@ -243,20 +242,30 @@ class _Vessel:
             )
         sense = 1.0 if vessel.get("RAOPhaseConvention", "leads") == "leads" else -1.0
         sense *= np.pi / 180.0 if unit == "degrees" else 1.0
-        factor = self.units.force / self.units.length * (1.0 if relative == "crest" else -1.0)
+        return sense, 1.0 if relative == "crest" else -1.0
+
+    def _forces(
+        self, vessel: dict[str, Any], depth: float, gravity: float
+    ) -> tuple[Array, Complex]:
+        """Headings [rad] and excitation (nw, nh, 6) about the reference origin."""
+        loads = self.draught.get("LoadRAOs") or {}
+        blocks = self.entry(loads, "RAOs")
+        self.check_origin(loads)
+        sense, crest = self.phases(vessel)
+        factor = crest * self.units.force / self.units.length
         if vessel.get("RAOWaveUnit", "amplitude") != "amplitude":
             factor *= 2.0
         stated = [block.get("RAODirection") for block in blocks]
-        heading = self._numbers(stated, "RAODirection", (len(blocks),))
+        heading = self.numbers(stated, "RAODirection", (len(blocks),))
         result = np.empty((self.omega.size, heading.size, 6), dtype=complex)
         for h, block in enumerate(blocks):
             rows: list[Any] = next(
                 (v for key, v in block.items() if key.startswith("RAOPeriod")), []
             )
             given = [
-                [self._omega(row[0]), *row[1:]] for row in rows if isinstance(row, list) and row
+                [self.omega_of(row[0]), *row[1:]] for row in rows if isinstance(row, list) and row
             ]
-            table = self._numbers(given, "LoadRAOs", (len(rows), 13))
+            table = self.numbers(given, "LoadRAOs", (len(rows), 13))
             table = table[np.isfinite(table[:, 0]) & (table[:, 0] > 0.0)]
             table = table[np.argsort(table[:, 0])]
             if table.shape != (self.omega.size, 13) or not np.allclose(table[:, 0], self.omega):
@@ -264,11 +273,8 @@ class _Vessel:
                     f"{self.name}: LoadRAOs at other frequencies than added mass"
                 ).about("conflict", "frequencies")
             result[:, h] = factor * table[:, 1::2] * np.exp(1j * sense * table[:, 2::2])
-        if phase_origin is None or any(v is None for v in phase_origin):
-            place = self.point  # `~` stands for the RAO origin
-        else:
-            place = self._vector(loads, "PhaseOrigin")
-        result *= self._scale
+        place = self.phase_place(loads)
+        result *= self.scale
         beta = np.radians(heading)
         if self.symmetry == "Circular":
             beta, result = turned_forces(beta, result)
@@ -280,6 +286,21 @@ class _Vessel:
         along = place[0] * np.cos(beta) + place[1] * np.sin(beta)
         return beta, result * np.exp(-1j * np.outer(k, along))[:, :, None]
 
+    def check_origin(self, loads: dict[str, Any]) -> None:
+        """Refuse loads about another point than the reference origin."""
+        if not np.allclose(self.vector(loads, "RAOOrigin"), self.point, atol=1e-6):
+            raise DatabaseError(
+                f"{self.name}: RAOOrigin {loads.get('RAOOrigin')} is not ReferenceOrigin "
+                f"{self.point.tolist()}: export both about one point"
+            ).about("point", self.name)
+
+    def phase_place(self, loads: dict[str, Any]) -> Array:
+        """Return where the wave has its phase zero, (3,) [m]; `~` stands for the RAO origin."""
+        stated = loads.get("PhaseOrigin")
+        if stated is None or any(v is None for v in stated):
+            return self.point
+        return self.vector(loads, "PhaseOrigin")
+
     def hydrostatics(self, rho: float, gravity: float) -> Hydrostatics | None:
         """Waterplane from the stiffness of heave, roll and pitch, about the centre of mass.
 
@@ -288,12 +309,12 @@ class _Vessel:
         rows = next(
             (v for key, v in self.draught.items() if key.startswith("HydrostaticStiffnessz")), None
         )
-        block = self._numbers(rows, "HydrostaticStiffness", (3, 3))
+        block = self.numbers(rows, "HydrostaticStiffness", (3, 3))
         stiffness = np.zeros((6, 6))
-        scale = self._scale[2:5]
+        scale = self.scale[2:5]
         unit = self.units.force / self.units.length
         stiffness[2:5, 2:5] = unit * block * np.outer(scale, scale)
-        mass_center = self._vector(self.draught, "CentreOfMass")
+        mass_center = self.vector(self.draught, "CentreOfMass")
         if abs(mass_center[2] - self.point[2]) > 1e-6:
             return None  # the file does not say whether the weight is in the stiffness
         volume = self.draught.get("DisplacedVolume")
@@ -302,7 +323,7 @@ class _Vessel:
                 "format", "DisplacedVolume"
             )
         volume *= self.units.length**3
-        center = self._vector(self.draught, "CentreOfBuoyancy")
+        center = self.vector(self.draught, "CentreOfBuoyancy")
         return Hydrostatics.from_stiffness(stiffness, self.point, volume, center, rho, gravity)
 
 

@@ -15,6 +15,7 @@ from hydrodae.hdb.readers.formats import formats
 from hydrodae.hdb.readers.headings import FORCES, settle_headings
 from hydrodae.hdb.readers.kinds import others, resolve
 from hydrodae.hdb.readers.reference import settle_points
+from hydrodae.hdb.readers.second_order import attach
 from hydrodae.hdb.readers.source import LARGEST, SourceData, Water
 from hydrodae.hdb.readers.time_sense import correct_time_sense
 
@@ -56,6 +57,7 @@ def read_source(
         _check_tables(path, data)
         settle_points(data)
         correct_time_sense(data, time_convention)
+        attach(path, what, data)
     except DatabaseError as error:
         raise _naming(path, error) from None
     if what not in formats() or not formats()[what].takes_water:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from hydrodae.hdb.database.extra import SourceTable
 from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.database.second_order import SecondOrderTable
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import Label, read_labels
 from hydrodae.support.arrays import Array, Complex
@@ -37,6 +38,29 @@ class Water:
     density: float | None = None
     depth: float | None = None
     gravity: float | None = None
+
+
+@dataclass(frozen=True)
+class Scales:
+    """How a source writes what stands beside its tables, for those of second order.
+
+    Attributes
+    ----------
+    modes : tuple of str
+        Coordinate of each number of a mode, from 1 on; empty: six of each body.
+    length, first_column
+        ULEN [m] and IPEROUT of WAMIT.
+    unit : float
+        Newtons in the unit of force of AQWA.
+    wave_point : (2,) tuple
+        Where the wave of Nemoh has its phase zero [m].
+    """
+
+    modes: tuple[str, ...] = ()
+    length: float = 1.0
+    first_column: int = 1
+    unit: float = 1.0
+    wave_point: tuple[float, float] = (0.0, 0.0)
 
 
 @dataclass
@@ -69,6 +93,10 @@ class SourceData:
         Kochin functions and drift forces.
     mode_stiffness : dict
         Hydrostatics of bodies with modes (6 + m, 6 + m) [N/m, N, N m]; see `Body`.
+    scales : Scales
+        How the source writes tables of second order.
+    second_order : dict of SecondOrderTable
+        As in `HydroDatabase`.
     """
 
     coordinates: tuple[str, ...]
@@ -93,6 +121,8 @@ class SourceData:
     meshes: dict[str, Array] = field(default_factory=dict)
     extra: dict[str, SourceTable] = field(default_factory=dict)
     mode_stiffness: dict[str, Array] = field(default_factory=dict)
+    scales: Scales = field(default_factory=Scales)
+    second_order: dict[str, SecondOrderTable] = field(default_factory=dict)
 
     @property
     def labels(self) -> list[Label]:

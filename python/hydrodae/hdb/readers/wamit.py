@@ -15,11 +15,11 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.coordinates import unique_names
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
-from hydrodae.hdb.labels import DOFS, bodies_of, read_labels, rigid
+from hydrodae.hdb.labels import DOFS, bodies_of, read_labels, rigid, six_of_each
 from hydrodae.hdb.readers import wamit_tables as tables
 from hydrodae.hdb.readers.formats import Format
 from hydrodae.hdb.readers.mesh_beside import statics_of_file
-from hydrodae.hdb.readers.source import SourceData, Water, without_hydrostatics
+from hydrodae.hdb.readers.source import Scales, SourceData, Water, without_hydrostatics
 from hydrodae.hdb.readers.text import LARGEST_COUNT
 from hydrodae.hdb.readers.wamit_asked import asked_findings
 from hydrodae.hdb.readers.wamit_control import Control, beside, mesh_of, read_control
@@ -184,6 +184,7 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
         added_mass_inf=None,
         files=files,
         findings=findings,
+        scales=Scales(six_of_each(names), length, option),
     )
     limit = at_infinity(at, a, b, findings)
     data.added_mass_inf = None if limit is None else scale * limit

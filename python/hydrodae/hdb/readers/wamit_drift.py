@@ -1,0 +1,108 @@
+"""Second order of WAMIT: mean drift `.7 .8 .9`, and loads of two waves `.10 .11 .12`, each d and s.
+
+Phasors are e^{+iwt} with the phase zero at the origin, as here: T of difference is that of
+A_1 conj(A_2). Loads are F/(rho g L), moments F/(rho g L^2), over the two amplitudes.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from hydrodae.errors import DatabaseError
+from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.database.second_order import KINDS, OF_ALL_BODIES
+from hydrodae.hdb.labels import read_labels
+from hydrodae.hdb.readers import wamit_tables as tables
+from hydrodae.hdb.readers.quadratic import Entries
+from hydrodae.hdb.readers.setting import Setting
+from hydrodae.hdb.readers.wamit import wamit_stem
+from hydrodae.hdb.readers.wamit_control import beside, read_control
+
+#: Kind and method of each file, the better ones first: pressures need finer meshes than the far
+#: field or a control surface, and `.10` lacks the potential of second order.
+SUFFIXES = {
+    ".7": ("mean", "control surface"),
+    ".8": ("mean", "momentum"),
+    ".9": ("mean", "pressure"),
+    ".12d": ("difference", "direct"),
+    ".11d": ("difference", "indirect"),
+    ".10d": ("difference", "quadratic part"),
+    ".12s": ("sum", "direct"),
+    ".11s": ("sum", "indirect"),
+    ".10s": ("sum", "quadratic part"),
+}
+#: What a line holds, by its number of periods.
+ROWS = {
+    1: "period, two headings, mode, modulus, phase, real and imaginary part",
+    2: "two periods, two headings, mode, modulus, phase, real and imaginary part",
+}
+
+
+def find(source: Path) -> list[Path]:
+    """Return the files of second order beside a file of a run, or of that name themselves."""
+    if source.suffix.lower() in SUFFIXES:
+        return [source]
+    stem = wamit_stem(source)
+    if stem is None:
+        return []
+    return [path for suffix in SUFFIXES if (path := beside(stem, suffix)) is not None]
+
+
+def read(path: Path, setting: Setting, findings: list[Finding]) -> Entries | None:
+    """Read one file; None where its loads belong to no single body.
+
+    Raises
+    ------
+    DatabaseError
+        A line of another form, or a mode of another body.
+    """
+    kind, method = SUFFIXES[path.suffix.lower()]
+    if method in OF_ALL_BODIES and len(setting.bodies) > 1:
+        text = f"{path.name} is the sum over {len(setting.bodies)} bodies: not read"
+        findings.append(Finding("info", "second order", text))
+        return None
+    waves = KINDS[kind].axes
+    count, meaning = 7 + waves, ROWS[waves]
+    rows, lines = tables.read_rows(path, count, count, meaning)
+    kept = rows[:, waves + 2] > 0.0  # negative modes: the same loads in other axes
+    if not kept.all():
+        text = f"{path.name}: {(~kept).sum()} lines of negative modes, in other axes: left out"
+        findings.append(Finding("info", "second order", text))
+    omega = np.column_stack(
+        [
+            tables.to_omega(
+                path, rows[:, i], setting.first_column, setting.length, setting.depth,
+                setting.gravity,
+            )
+            for i in range(waves)
+        ]
+    )  # fmt: skip
+    kept &= np.all(np.isfinite(omega) & (omega > 0.0), axis=1)
+    rows, omega = rows[kept], omega[kept]
+    lines = [line for line, keep in zip(lines, kept, strict=True) if keep]
+    if not lines:
+        raise DatabaseError(f"no line with a mode and frequencies > 0; expected {meaning}").about(
+            "missing", "numbers", file=path
+        )
+    tables.check_parts(path, rows[:, count - 7 :], lines, findings)
+    modes = zip(rows[:, waves + 2], lines, strict=True)
+    labels = [setting.label_of(mode, path, line) for mode, line in modes]
+    turns = np.array([label.is_rotation for label in read_labels(labels)])
+    scale = setting.rho * setting.gravity * setting.length ** (1.0 + turns)
+    return Entries(
+        path,
+        kind,
+        method,
+        np.column_stack([omega[:, 0], omega[:, -1]]),
+        np.radians(rows[:, waves : waves + 2]),
+        labels,
+        np.asarray(scale * (rows[:, -2] + 1j * rows[:, -1]), dtype=complex),
+        np.array(lines),
+    )
+
+
+def length_of(path: Path) -> float | None:
+    """Length scale [m] that the control files beside a table state, or None."""
+    return read_control(path.with_suffix("")).length
