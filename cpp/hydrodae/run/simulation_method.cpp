@@ -32,8 +32,6 @@ void Simulation::choose_method() {
 void Simulation::use_method() {
   options_.method = methods_.method();
   approaches_events_ = method_traits(options_.method).coarse_inside || options_.step > 0.0;
-  if (poses_)
-    poses_->use(options_.method);
 }
 
 /// At the last accepted instant; of the next method where this one cannot start there.
