@@ -187,7 +187,7 @@ bool Simulation::take_step(double end) {
       if (!methods_.more())
         throw;
       take_back();
-      fall_back(error);
+      change_method(methods_.after(error, MethodChange::Cause::guard));
     }
   }
 }
@@ -218,8 +218,6 @@ Step Simulation::last_step(bool event) {
 /// One step, cut short where a stop or dry friction changes.
 /// @returns whether it ends in such an event
 bool Simulation::make_step(double end) {
-  if (methods_.labours())
-    fall_back(methods_.labour(t_));
   weigh_methods();
   for (;;) {
     last_start_ = step_start_;
@@ -241,7 +239,7 @@ bool Simulation::make_step(double end) {
       const SolverError stopped(error.time, guards_->poses().with_remedy(error.halt, t_, y_, yp_));
       if (!methods_.chosen())
         throw stopped;
-      fall_back(stopped);
+      change_method(methods_.after(stopped, MethodChange::Cause::stop));
       continue;
     }
     const std::optional<double> event = locate();

@@ -149,7 +149,7 @@ private:
   void restart_integrator();
   void find_sources();
   void make_closing();
-  void fall_back(const SolverError& error);
+  void change_method(const MethodChange& change);
   bool take_step(double end);
   bool has_samples() const;
   void measure_step();
