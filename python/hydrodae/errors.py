@@ -133,7 +133,7 @@ class SolverError(HydrodaeError, RuntimeError):
         Time reached, s (NaN if unknown).
     reason : str
         Why: start, step, jacobian, not_finite, progress, drift, branch, energy, growth, impact,
-        friction, range, labour, controller, output, state or solver.
+        friction, range, controller, output, state or solver.
     subject : str
         What it is about: a path of the results such as "bodies/float", or the name of an unknown or
         a constraint; "" for the whole scene.

@@ -7,10 +7,9 @@
 namespace hydrodae {
 
 std::string_view name_of(Reason reason) {
-  constexpr std::array<std::string_view, 17> names = {
-      "start",  "step",       "jacobian", "not_finite", "progress", "drift",
-      "branch", "energy",     "growth",   "impact",     "friction", "range",
-      "labour", "controller", "output",   "state",      "solver"};
+  constexpr std::array<std::string_view, 16> names = {
+      "start",  "step",   "jacobian", "not_finite", "progress",   "drift",  "branch", "energy",
+      "growth", "impact", "friction", "range",      "controller", "output", "state",  "solver"};
   return names[static_cast<std::size_t>(reason)];
 }
 

@@ -56,7 +56,6 @@ enum class Reason {
   impact,     ///< no impulses fit an impact, or no motion goes on from it
   friction,   ///< no friction fits (a jam, a rope that neither sticks nor slips)
   range,      ///< a body has left the range of its data or coordinates
-  labour,     ///< a method labours: another one is better
   controller, ///< a controller, or the program behind it, failed
   output,     ///< results cannot be written
   state,      ///< the run has stopped before

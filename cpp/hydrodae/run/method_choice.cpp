@@ -80,21 +80,24 @@ MethodChoice::MethodChoice(std::string method) { order_.methods.push_back(std::m
 
 MethodChoice::MethodChoice(MethodOrder order) : order_(std::move(order)) {}
 
-void MethodChoice::next(const SolverError& error) {
-  left_.push_back({error.time, error.halt.what});
-  if (more()) {
-    ++at_;
-    short_steps_ = weighed_steps_ = 0;
-    weighed_time_ = turn_steps_ = 0.0;
-    again_ = turns_ > 0;
-    return;
-  }
+void MethodChoice::next(const MethodChange& change) {
+  changes_.push_back(change);
+  ++at_;
+  short_steps_ = weighed_steps_ = 0;
+  weighed_time_ = turn_steps_ = 0.0;
+  again_ = turns_ > 0;
+}
+
+MethodChange MethodChoice::after(const SolverError& error, MethodChange::Cause cause) const {
+  MethodChange change{cause, method(), error.time, error.halt.what};
+  if (more())
+    return change;
   Halt halt = error.halt;
   halt.advice.clear(); // it names other methods
   halt.what = "no method of \"auto\" goes on: ";
-  for (std::size_t k = 0; k < left_.size(); ++k)
-    halt.what += (k > 0 ? "; " : "") + order_.methods[k] + " at t = " + number_text(left_[k].time) +
-                 " s: " + left_[k].reason;
+  for (const MethodChange& c : changes_)
+    halt.what += with_time(c) + "; ";
+  halt.what += with_time(change);
   throw SolverError(error.time, std::move(halt));
 }
 
@@ -110,9 +113,12 @@ void MethodChoice::accept(double h, double rate, bool own, double operations) {
   operations_ = operations;
 }
 
-bool MethodChoice::labours() const {
-  return more() && !takes_turn() && method_traits(method()).bounded_stability &&
-         short_steps_ >= many;
+std::optional<MethodChange> MethodChoice::labours(double t) const {
+  if (short_steps_ < many || !more() || takes_turn() || !method_traits(method()).bounded_stability)
+    return std::nullopt;
+  return MethodChange{MethodChange::Cause::cost, method(), t,
+                      number_text(many) + " steps of " + method() + " in a row were shorter than " +
+                          number_text(short_step) + " rad of the motion"};
 }
 
 bool MethodChoice::weighs() const {
@@ -120,8 +126,8 @@ bool MethodChoice::weighs() const {
          weighed_steps_ > weighed;
 }
 
-std::optional<std::string> MethodChoice::weigh(double of_step,
-                                               const std::function<double()>& fastest) {
+std::optional<MethodChange> MethodChoice::weigh(double t, double of_step,
+                                                const std::function<double()>& fastest) {
   constexpr double enough = 2.0, stable = 5.0; // of a step of order 8, times the fastest rate
   const double as_many = (operations_ - weighed_from_) / of_step; // steps of explicit_rk
   double ratio = as_many / weighed;                               // of steps as long
@@ -135,8 +141,9 @@ std::optional<std::string> MethodChoice::weigh(double of_step,
     return std::nullopt;
   set_turns(turns_ + 1);
   turn_ = again ? 2.0 * turn_ : 10.0 * as_many;
-  return number_text(weighed) + " steps took " + rounded_text(ratio) +
-         " times the operations that explicit_rk needs";
+  return MethodChange{MethodChange::Cause::cost, method(), t,
+                      number_text(weighed) + " steps of " + method() + " took " +
+                          rounded_text(ratio) + " times the operations that explicit_rk needs"};
 }
 
 /// The order with so many turns of explicit_rk after the first method.
@@ -149,42 +156,28 @@ void MethodChoice::set_turns(int turns) {
   turns_ = turns;
 }
 
-SolverError MethodChoice::over(double t) const {
-  return {t, {Reason::labour, "it is time to weigh radau again"}};
-}
-
-SolverError MethodChoice::labour(double t) const {
-  return {t,
-          {Reason::labour, number_text(many) + " steps in a row were shorter than " +
-                               number_text(short_step) + " rad of the motion"}};
+std::optional<MethodChange> MethodChoice::returns(double t) const {
+  if (!takes_turn() || turn_steps_ < turn_)
+    return std::nullopt;
+  return MethodChange{MethodChange::Cause::cost, method(), t,
+                      method() + " has made the " + number_text(turn_steps_) +
+                          " steps of its turn"};
 }
 
 std::vector<MethodChoice::Part> MethodChoice::parts() const {
   std::vector<Part> out{{order_.methods[0], 0.0, order_.reason}};
   for (std::size_t k = 1; k <= at_; ++k)
-    out.push_back({order_.methods[k], left_[k - 1].time, left_[k - 1].reason});
+    out.push_back({order_.methods[k], changes_[k - 1].time, in_words(changes_[k - 1])});
   return out;
 }
 
 void MethodChoice::remember(Archive& a) {
   int turns = turns_;
-  a(at_, left_, short_steps_, turns, turn_, turn_steps_, again_, weighed_steps_, weighed_time_,
+  a(at_, changes_, short_steps_, turns, turn_, turn_steps_, again_, weighed_steps_, weighed_time_,
     operations_, weighed_from_);
   set_turns(turns);
-  if (at_ >= order_.methods.size() || left_.size() < at_)
+  if (at_ >= order_.methods.size() || changes_.size() < at_)
     throw Error("the state is of a run with other methods");
-}
-
-void MethodChoice::Left::remember(Archive& a) {
-  std::vector<double> letters; // of UTF-8
-  for (const char c : reason)
-    letters.push_back(static_cast<unsigned char>(c));
-  a(time, letters);
-  if (a.saves())
-    return;
-  reason.clear();
-  for (const double letter : letters)
-    reason += static_cast<char>(static_cast<unsigned char>(letter));
 }
 
 std::string in_words(const MethodChoice& choice) {
@@ -195,7 +188,7 @@ std::string in_words(const MethodChoice& choice) {
   const std::size_t shown = std::min<std::size_t>(parts.size(), 4);
   for (std::size_t k = 1; k < shown; ++k)
     text += ", " + parts[k].method + " from t = " + number_text(parts[k].from) + " s because " +
-            parts[k - 1].method + " gave up: " + parts[k].reason;
+            parts[k].reason;
   if (parts.size() > shown)
     text += ", and " + std::to_string(parts.size() - shown) + " more changes, at last to " +
             parts.back().method + " at t = " + number_text(parts.back().from) + " s";

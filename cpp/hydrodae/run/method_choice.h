@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "hydrodae/core/archive.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/solver_options.h"
+#include "hydrodae/run/method_change.h"
 #include "hydrodae/system/jacobian.h"
 
 namespace hydrodae::run {
@@ -69,18 +69,21 @@ public:
   /// Is there another method to go on with?
   bool more() const { return at_ + 1 < order_.methods.size(); }
 
-  /// Goes on with the next method, as the one at work has met `error`. Throws SolverError where
-  /// none is left, with all that were tried.
-  void next(const SolverError& error);
+  /// Goes on with the next method, of which there must be one.
+  void next(const MethodChange& change);
+
+  /// The change that follows from an error of the method at work. Throws SolverError where no
+  /// method is left, with all that were tried.
+  MethodChange after(const SolverError& error, MethodChange::Cause cause) const;
 
   /// Takes an accepted step of the length h [s] at the rate of the motion [1/s], after so many
   /// operations since the start of the run.
   /// @param own the method chose its end; else h is no evidence
   void accept(double h, double rate, bool own, double operations);
 
-  /// Were so many of the last steps of explicit_rk so short against the motion that it must be
-  /// stability that limits them, and is there a method to make longer ones?
-  bool labours() const;
+  /// The change at time t [s] to a method with longer steps, where so many of the last steps of
+  /// explicit_rk were so short against the motion that it must be stability that limits them.
+  std::optional<MethodChange> labours(double t) const;
 
   /// Is it time to ask whether explicit_rk would do the work of radau with less? Once in so many
   /// steps, where the scene was stiff at its start.
@@ -91,21 +94,17 @@ public:
   /// than its stability allows. Its turn takes ten times the operations of the steps that were
   /// weighed, so that these count little, and twice those of its last turn if radau did no better
   /// at once.
+  /// @param t        time now [s]
   /// @param of_step  operations of one step of explicit_rk
   /// @param fastest  rate of the equations [1/s], asked for where steps of any length would do
-  /// @returns why, if so
-  std::optional<std::string> weigh(double of_step, const std::function<double()>& fastest);
+  /// @returns the change to explicit_rk, if so
+  std::optional<MethodChange> weigh(double t, double of_step,
+                                    const std::function<double()>& fastest);
 
-  /// Is the turn of explicit_rk over?
-  bool returns() const { return takes_turn() && turn_steps_ >= turn_; }
+  /// The change back to radau at time t [s], where the turn of explicit_rk is over.
+  std::optional<MethodChange> returns(double t) const;
 
-  /// That as an error at time t [s].
-  SolverError over(double t) const;
-
-  /// That as an error at time t [s].
-  SolverError labour(double t) const;
-
-  /// A method from a time on, and why.
+  /// A method from a time on, and why, in words.
   struct Part {
     std::string method;
     double from = 0.0; ///< [s]
@@ -116,25 +115,19 @@ public:
   void remember(Archive& a);
 
 private:
-  struct Left { ///< why and when a method was given up
-    double time = 0.0;
-    std::string reason;
-    void remember(Archive& a);
-  };
-
   bool takes_turn() const { return at_ % 2 == 1 && at_ < 2 * static_cast<std::size_t>(turns_); }
   void set_turns(int turns);
 
   MethodOrder order_;
   std::size_t at_ = 0;
-  std::vector<Left> left_;    ///< of the methods before
-  int short_steps_ = 0;       ///< in a row
-  int turns_ = 0;             ///< of explicit_rk, each with radau after it
-  double turn_ = 0.0;         ///< steps of the last
-  double turn_steps_ = 0.0;   ///< made in it
-  bool again_ = false;        ///< have no steps of radau been weighed since the last turn?
-  int weighed_steps_ = 0;     ///< since the last `weigh`
-  double weighed_time_ = 0.0; ///< that they took [s]
+  std::vector<MethodChange> changes_; ///< so far, one for each method before
+  int short_steps_ = 0;               ///< in a row
+  int turns_ = 0;                     ///< of explicit_rk, each with radau after it
+  double turn_ = 0.0;                 ///< steps of the last
+  double turn_steps_ = 0.0;           ///< made in it
+  bool again_ = false;                ///< have no steps of radau been weighed since the last turn?
+  int weighed_steps_ = 0;             ///< since the last `weigh`
+  double weighed_time_ = 0.0;         ///< that they took [s]
   double operations_ = 0.0, weighed_from_ = 0.0; ///< at the last step, at the last `weigh`
 };
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 
-#include "hydrodae/accuracy/energy_guard.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/statics/consistent_start.h"
@@ -64,7 +63,7 @@ Simulation::Simulation(Start start, model::Scene&& scene, double looser)
   measure_ = std::make_unique<measure::Measure>(regime_, 0.0, y_, yp_);
   recorder_ = std::make_unique<observe::Recorder>(regime_, *measure_);
   measure_->average_from(system_.has_waves() ? scene_.sea.ramp : 0.0);
-  guards_ = make_guards(regime_, pattern_, options_, y_, poses_);
+  guards_ = std::make_unique<Guards>(regime_, pattern_, options_, y_);
   make_channels();
   find_sources();
 }
@@ -182,13 +181,13 @@ bool Simulation::take_step(double end) {
     if (closing_)
       closing_->accept(t_, y_, yp_);
     try {
-      check_step(event);
+      guards_->accept(last_step(event));
       return event;
     } catch (const SolverError& error) {
       if (!methods_.more())
         throw;
       take_back();
-      fall_back(error);
+      change_method(methods_.after(error, MethodChange::Cause::guard));
     }
   }
 }
@@ -212,18 +211,13 @@ void Simulation::measure_step() {
   measure_->begin(t_, inside_, !weights.empty());
 }
 
-/// Throws SolverError where the step is proved wrong.
-void Simulation::check_step(bool event) {
-  const Step step{step_start_, t_, event, y_, yp_, *integrator_, *measure_};
-  for (const std::unique_ptr<Guard>& guard : guards_)
-    guard->check(step);
+Step Simulation::last_step(bool event) {
+  return {step_start_, t_, event, y_, yp_, *integrator_, *measure_};
 }
 
 /// One step, cut short where a stop or dry friction changes.
 /// @returns whether it ends in such an event
 bool Simulation::make_step(double end) {
-  if (methods_.labours())
-    fall_back(methods_.labour(t_));
   weigh_methods();
   for (;;) {
     last_start_ = step_start_;
@@ -242,10 +236,10 @@ bool Simulation::make_step(double end) {
       at_(t_, y_, yp_);
       if (begins_to_move())
         continue;
-      const SolverError stopped(error.time, poses_->with_remedy(error.halt, t_, y_, yp_));
+      const SolverError stopped(error.time, guards_->poses().with_remedy(error.halt, t_, y_, yp_));
       if (!methods_.chosen())
         throw stopped;
-      fall_back(stopped);
+      change_method(methods_.after(stopped, MethodChange::Cause::stop));
       continue;
     }
     const std::optional<double> event = locate();
@@ -280,7 +274,7 @@ void Simulation::restart() {
     } else {
       restart_integrator();
     }
-    restart_guards();
+    guards_->restart(y_);
   }
   solver_time_ += seconds_since(before);
 }
@@ -299,18 +293,7 @@ void Simulation::follow_turns() {
     switching_->follow(turns);
 }
 
-void Simulation::restart_guards() {
-  const Step step{t_, t_, false, y_, yp_, *integrator_, *measure_};
-  poses_->restart(y_);
-  for (const std::unique_ptr<Guard>& guard : guards_)
-    guard->restart(step);
-}
-
-void Simulation::finish() {
-  const Step step{step_start_, t_, false, y_, yp_, *integrator_, *measure_};
-  for (const std::unique_ptr<Guard>& guard : guards_)
-    guard->finish(step);
-}
+void Simulation::finish() { guards_->finish(last_step(false)); }
 
 double Simulation::relative_balance_error() const {
   const double exchanged = measure_->whole().exchanged;
@@ -318,7 +301,7 @@ double Simulation::relative_balance_error() const {
 }
 
 double Simulation::energy_scale() const {
-  return std::max(measure_->whole().exchanged, accuracy::EnergyGuard(regime_, options_).counts());
+  return std::max(measure_->whole().exchanged, energy_of_errors(regime_, options_.rtol));
 }
 
 } // namespace hydrodae::run

@@ -149,11 +149,11 @@ private:
   void restart_integrator();
   void find_sources();
   void make_closing();
-  void fall_back(const SolverError& error);
+  void change_method(const MethodChange& change);
   bool take_step(double end);
   bool has_samples() const;
   void measure_step();
-  void check_step(bool event);
+  Step last_step(bool event);
   void take_back();
   void watch_steps(bool event, double end);
   double operations() const;
@@ -162,7 +162,6 @@ private:
   void restart();
   statics::Consistency& consistency();
   void follow_turns();
-  void restart_guards();
   void take_inputs();
   void take_control();
   std::span<const double> row_now();
@@ -201,8 +200,7 @@ private:
   std::unique_ptr<integrate::SampleClosing> closing_; ///< null: no rows, or rows that drift
   std::unique_ptr<measure::Measure> measure_;
   std::unique_ptr<observe::Recorder> recorder_;
-  std::unique_ptr<PoseWatch> poses_;
-  std::vector<std::unique_ptr<Guard>> guards_;
+  std::unique_ptr<Guards> guards_;
   std::vector<Channel> channels_;
   std::size_t width_ = 0;
   std::vector<double> now_;         ///< row of the present instant; empty: not asked for yet

@@ -32,8 +32,6 @@ void Simulation::choose_method() {
 void Simulation::use_method() {
   options_.method = methods_.method();
   approaches_events_ = method_traits(options_.method).coarse_inside || options_.step > 0.0;
-  if (poses_)
-    poses_->use(options_.method);
 }
 
 /// At the last accepted instant; of the next method where this one cannot start there.
@@ -46,7 +44,7 @@ void Simulation::make_integrator() {
     } catch (const SolverError& error) {
       if (!methods_.chosen())
         throw;
-      methods_.next(error);
+      methods_.next(methods_.after(error, MethodChange::Cause::stop));
       use_method();
     }
   }
@@ -71,10 +69,9 @@ void Simulation::make_closing() {
         regime_, pattern_, !method_traits(options_.method).projects_rates);
 }
 
-/// The next method goes on from the last accepted instant, as this one has met an error there. What
-/// the guards have seen stays. Throws SolverError where none is left.
-void Simulation::fall_back(const SolverError& error) {
-  methods_.next(error);
+/// The next method goes on from the last accepted instant. What the guards have seen stays.
+void Simulation::change_method(const MethodChange& change) {
+  methods_.next(change);
   event_near_ = INFINITY;
   follow_turns();
   use_method();
@@ -220,15 +217,17 @@ double Simulation::operations_of_explicit_step() const {
                         linalg::of_jacobian * entries);
 }
 
-/// Another method takes over where it makes the same steps with less work.
+/// Another method takes over where it makes the steps with less work.
 void Simulation::weigh_methods() {
-  if (methods_.returns())
-    fall_back(methods_.over(t_));
+  if (const auto change = methods_.labours(t_))
+    change_method(*change);
+  if (const auto change = methods_.returns(t_))
+    change_method(*change);
   if (!methods_.weighs())
     return;
   const auto fastest = [&] { return integrate::fastest_rate(regime_, pattern_, t_, y_, yp_); };
-  if (const auto why = methods_.weigh(operations_of_explicit_step(), fastest))
-    fall_back({t_, {Reason::labour, *why}});
+  if (const auto change = methods_.weigh(t_, operations_of_explicit_step(), fastest))
+    change_method(*change);
 }
 
 /// The rule by which the work over the coming step is summed.

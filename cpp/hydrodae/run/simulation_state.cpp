@@ -56,9 +56,7 @@ State Simulation::state() {
   save(out.memory, "measure", *measure_);
   save(out.memory, "scales", *scale_);
   save(out.memory, "integrator", *integrator_);
-  save(out.memory, "poses", *poses_);
-  for (std::size_t k = 0; k < guards_.size(); ++k)
-    save(out.memory, "guard_" + std::to_string(k), *guards_[k]);
+  save(out.memory, "guards", *guards_);
   if (switching_)
     save(out.memory, "switching", *switching_);
   if (history_)
@@ -106,10 +104,8 @@ void Simulation::set(const State& state) {
   consistency_.reset(); // its pivots are those of its past
   make_integrator();
   restore(memory, "integrator", *integrator_);
-  restart_guards();
-  restore(memory, "poses", *poses_);
-  for (std::size_t k = 0; k < guards_.size(); ++k)
-    restore(memory, "guard_" + std::to_string(k), *guards_[k]);
+  guards_->restart(y_);
+  restore(memory, "guards", *guards_);
   failed_ = false;
 }
 

@@ -4,7 +4,7 @@
 /// A rotation by the angle a about the axis e is one by a + 2 pi k, too. Of these vectors the one
 /// counts that is nearest to where the last accepted step and the rates lead, so that it goes on
 /// beyond half a turn. That counts turns as long as the axis stays; where it does not, a full turn
-/// has no direction (run/turn_check.h).
+/// has no direction (run/guard_turns.cpp).
 
 #include <cmath>
 

@@ -74,7 +74,7 @@ def _methods(results: Recording) -> list[str]:
         raise ResultsError(f"{results.path}: the methods of its parts are damaged")
     parts, before = [], ""
     for name, start, reason in zip(*texts, strict=True):
-        since = f"{name} from t = {start} s because {before} gave up: {reason}"
+        since = f"{name} from t = {start} s because {reason}"
         parts.append(since if before else f"{name} ({reason})")
         before = name
     if len(parts) > 4:

@@ -1,7 +1,13 @@
-#include "hydrodae/run/turn_check.h"
+/// Guard of rotation vectors beyond half a turn.
+///
+/// Up to 180 degrees a rotation is a vector, whatever the way there. Beyond, the vector goes on
+/// (system/turning.h) as long as the rotation keeps its axis. A rotation that leaves it by a small
+/// angle d passes a full turn with a vector that swings round within the angle d: each such turn
+/// changes the motion by a part d. So d is held to what the tolerance bears anyway.
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/run/guards.h"
 #include "hydrodae/system/elements.h"
 
 namespace hydrodae::run {
@@ -10,12 +16,13 @@ namespace {
 
 constexpr double borne = 100.0; ///< tolerances; a sound error test bears some
 
-class TurnCheck final : public Guard {
+/// Ends the run where a load follows such a vector and there is no axis.
+class TurnGuard final : public Guard {
 public:
-  TurnCheck(const system::Regime& s, double rtol)
+  TurnGuard(const system::Regime& s, double rtol)
       : s_(s), allowed_(borne * rtol), ws_(s), axes_(3 * s.system.rotations.size(), 0.0) {}
 
-  void check(const Step& step) override {
+  void accept(const Step& step) override {
     const system::Turns& turns = step.measure.turns();
     std::vector<bool> lost(s_.system.rotations.size());
     bool any = false;
@@ -95,11 +102,11 @@ private:
 
 } // namespace
 
-std::unique_ptr<Guard> make_turn_check(const system::Regime& s, double rtol) {
-  for (const system::ElementList& list : s.elements)
+std::unique_ptr<Guard> make_turn_guard(const GuardInputs& in) {
+  for (const system::ElementList& list : in.system.elements)
     for (const system::PortData& port : list.ports)
       if (port.followed >= 0)
-        return std::make_unique<TurnCheck>(s, rtol);
+        return std::make_unique<TurnGuard>(in.system, in.options.rtol);
   return nullptr;
 }
 

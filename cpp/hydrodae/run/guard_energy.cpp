@@ -1,0 +1,163 @@
+/// Guard of the energy that the equations keep, at which the integrator does not look: energy that
+/// is missing shows a branch lost in a singular pose, or a tolerance too loose.
+
+#include <algorithm>
+#include <cmath>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/run/guards.h"
+#include "hydrodae/system/mechanisms.h"
+
+namespace hydrodae::run {
+
+namespace {
+
+constexpr double usual = 1e-2; ///< part of the energy exchanged
+
+/// Part of the potential energy m g L of a body that rounding may lose: 2e-16 in each of 5000
+/// steps.
+constexpr double rounded_off = 1e-12;
+
+/// Energy exchanged, as far as a wrong step cannot have made it up: what was exchanged before it,
+/// times ten, or what moves at its end [J].
+double believed(const measure::Balance& before, const measure::Balance& now) {
+  constexpr double more = 10.0;
+  return std::min(now.exchanged, std::max(more * before.exchanged, now.kinetic));
+}
+
+/// Part of the energy exchanged that may be missing at a singular pose of a loop, where energy and
+/// motion are lost together; of the motion, relative to its size, measured ten times (slider crank
+/// with equal bars) to 200 times as much (two four-bar windows, ten seconds). Allowed are errors of
+/// some sqrt(rtol), of some hundredths with fixed steps.
+double guard_at_singular_poses(const SolverOptions& options) {
+  return options.step > 0.0 ? 5e-4
+                            : std::min(usual, 1e-2 * std::sqrt(std::max(options.rtol, 1e-6)));
+}
+
+class EnergyGuard final : public Guard {
+public:
+  explicit EnergyGuard(const GuardInputs& in)
+      : s_(in.system), rtol_(in.options.rtol), part_(in.options.energy_guard.value_or(usual)),
+        at_singular_(in.options.energy_guard ? part_ : guard_at_singular_poses(in.options)),
+        guided_(system::guided_mechanisms(in.system)), poses_(in.poses) {}
+
+  /// The balance of the scene, then that of each mechanism.
+  void accept(const Step& step) override {
+    const measure::Measure& measure = step.measure;
+    const std::vector<measure::Balance>& mechanisms = measure.mechanisms();
+    judge(step, -1, measure.whole().error, believed(measure.whole_before(), measure.whole()));
+    for (std::size_t m = 0; m < mechanisms.size(); ++m)
+      judge(step, static_cast<int>(m), mechanisms[m].error,
+            believed(measure.mechanisms_before()[m], mechanisms[m]));
+  }
+
+  /// The same over the whole run, with next to no energy too little to judge.
+  void finish(const Step& step) override {
+    constexpr double little = 1e-2; // of what counts as too little during the run
+    const auto look = [&](int mechanism, double error, double exchanged) {
+      const double part = std::max(allowed(mechanism), usual);
+      if (std::abs(error) - little * least(mechanism) > part * exchanged)
+        fail(step.end, mechanism, {error, part, exchanged}, " in the whole run",
+             "a smaller tolerance or max_step may help", "");
+    };
+    const measure::Measure& measure = step.measure;
+    look(-1, measure.whole().error, measure.whole().exchanged);
+    for (std::size_t m = 0; m < measure.mechanisms().size(); ++m)
+      look(static_cast<int>(m), measure.mechanisms()[m].error, measure.mechanisms()[m].exchanged);
+  }
+
+private:
+  struct Excess {
+    double error;        ///< of the balance [J]
+    double allowed_part; ///< of the energy exchanged [-]
+    double exchanged;    ///< [J]
+  };
+
+  void judge(const Step& step, int mechanism, double error, double exchanged) {
+    if (std::abs(error) <= std::min(part_, at_singular_) * exchanged)
+      return;
+    const double missing = std::abs(error) - least(mechanism), part = allowed(mechanism);
+    if (missing <= std::min(part, at_singular_) * exchanged)
+      return;
+    const bool singular = missing <= part * exchanged;
+    if (singular && !poses_.near_singular(step))
+      return;
+    fail(step.end, mechanism, {error, singular ? at_singular_ : part, exchanged},
+         singular ? ", at a singular pose" : "",
+         std::string("a smaller tolerance or step, or another method may help") +
+             (singular ? " (radau and explicit_rk pass singular poses)" : ""),
+         largest_reactions(s_, step.y));
+  }
+
+  double least(int mechanism) const { return energy_of_errors(s_, rtol_, mechanism); }
+
+  /// Where drives guide all, the energy measures the reactions, which are a derivative less exact,
+  /// and hardly the motion.
+  double allowed(int mechanism) const {
+    constexpr double more = 10.0;
+    const bool guided = mechanism >= 0
+                            ? guided_[static_cast<std::size_t>(mechanism)]
+                            : std::all_of(guided_.begin(), guided_.end(), [](bool g) { return g; });
+    return guided ? more * part_ : part_;
+  }
+
+  /// " of 'crank', 'rod'"; empty for the whole scene (-1).
+  std::string members(int mechanism) const {
+    if (mechanism < 0)
+      return "";
+    std::vector<std::string> names;
+    for (const system::BodyData& b : s_.bodies)
+      if (b.mechanism == mechanism && names.size() < 4)
+        names.push_back(in_quotes(b.name));
+    return " of " + joined(names);
+  }
+
+  [[noreturn]] void fail(double t, int mechanism, const Excess& e, const std::string& where,
+                         const std::string& advice, const std::string& details) const {
+    throw SolverError(
+        t, {Reason::energy,
+            "the energy balance" + members(mechanism) + " is off by " + number_text(e.error) +
+                " J, more than " + number_text(e.allowed_part) + " of the " +
+                number_text(e.exchanged) + " J exchanged" + where +
+                " (solver.energy_guard): the motion is not to be trusted",
+            "",
+            {{"error", e.error}, {"allowed_part", e.allowed_part}, {"exchanged", e.exchanged}},
+            advice,
+            details});
+  }
+
+  const system::Regime& s_;
+  double rtol_, part_, at_singular_;
+  std::vector<bool> guided_; ///< by mechanism: joints and drives leave it no motion of its own
+  PoseWatch& poses_;
+};
+
+} // namespace
+
+bool energy_minds_singular_poses(const SolverOptions& options) {
+  return !options.energy_guard && guard_at_singular_poses(options) < usual;
+}
+
+/// 100 rtol m v^2 with the speed that counts as one.
+double energy_of_errors(const system::Regime& s, double rtol, int mechanism) {
+  double out = 0.0;
+  for (const system::BodyData& b : s.bodies) {
+    if (b.group < 0 || (mechanism >= 0 && b.mechanism != mechanism))
+      continue;
+    const double speed = b.length_scale / b.time_scale * s.motion_scale[b.group],
+                 full = b.lever / b.time_scale; // its square is that of a fall over the lever
+    out = std::max({out, std::min(100.0 * rtol, 0.1) * b.mass * speed * speed,
+                    rounded_off * b.mass * full * full});
+  }
+  return out;
+}
+
+/// A part of zero switches it off.
+std::unique_ptr<Guard> make_energy_guard(const GuardInputs& in) {
+  if (in.options.energy_guard == 0.0)
+    return nullptr;
+  return std::make_unique<EnergyGuard>(in);
+}
+
+} // namespace hydrodae::run
