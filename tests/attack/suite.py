@@ -47,8 +47,6 @@ FLOOR = 1e-9
 DEFAULTS = tuple(
     Method(name, {"method": name, "rtol": 1e-6}) for name in ("auto", "ida", "radau", "explicit_rk")
 )
-#: The same in the coordinates of the joints.
-REDUCED = Method("reduced", {"method": "explicit_rk", "coordinates": "reduced", "rtol": 1e-6})
 #: Methods with error control at other tolerances.
 TOLERANCES = tuple(
     Method(f"{name}:{rtol:.0e}", {"method": name, "rtol": rtol})
@@ -97,7 +95,7 @@ def random_method(column: str, scene: Scene, seed: int) -> Method:
 
 def methods_of(scene: Scene, columns: Sequence[str], seed: int) -> list[Method]:
     """Return the methods of the columns for a scene."""
-    known = {method.name: method for method in (*DEFAULTS, REDUCED, *TOLERANCES)}
+    known = {method.name: method for method in (*DEFAULTS, *TOLERANCES)}
     return [known.get(c) or random_method(c, scene, seed) for c in columns]
 
 
@@ -112,7 +110,7 @@ def described(scene: Scene, method: Method) -> str:
 
 def columns() -> list[str]:
     """Return the names of all columns."""
-    return [*(m.name for m in (*DEFAULTS, REDUCED, *TOLERANCES)), *RANDOM]
+    return [*(m.name for m in (*DEFAULTS, *TOLERANCES)), *RANDOM]
 
 
 def ratio(cell: Cell) -> float | None:

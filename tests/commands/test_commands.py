@@ -32,8 +32,8 @@ def commands(repository: Path) -> list[Command]:
 def test_commands_are_found_in_pages_docstrings_and_sentences(commands: list[Command]) -> None:
     found = {(c.source, c.plain.split("  #")[0].strip()) for c in commands}
     assert (
-        "docs/coordinates.md",
-        "python tests/benchmark/coordinates.py -o docs/coordinates.png",
+        "docs/performance.md",
+        ".venv/bin/python tests/benchmark/hexagonal_arrays.py -o docs/arrays.png",
     ) in found
     assert ("cases/f3of/free_base.py", "python cases/f3of/free_base.py") in found
     assert ("docs/fmu.md", "hydrodae fmu") in found
@@ -119,7 +119,7 @@ def test_a_page_has_all_that_its_commands_need(commands: list[Command]) -> None:
     database = "python cases/4n3la/four_nodes.py database"
     for name in ("cases/4n3la", "cases/9n9la", "docs/sweeps.md"):
         assert [bare(c) for c in groups[name]].count(database) == 1, name
-    assert "tests/benchmark/coordinates.py" not in groups  # docs/coordinates.md
+    assert "tests/benchmark/hexagonal_arrays.py" not in groups  # docs/performance.md
 
 
 def test_line_numbers_are_those_of_the_page(tmp_path: Path) -> None:

@@ -39,7 +39,6 @@ RUN_COMMANDS = (
     "docs/commands.md",
     "docs/control.md",
     "docs/conventions.md",
-    "docs/coordinates.md",
     "docs/databases.md",
     "docs/faq.md",
     "docs/first_steps.md",

@@ -223,3 +223,13 @@ def test_the_energy_guard_stops_a_run_that_lost_its_branch() -> None:
     numbers = e.value.numbers
     assert abs(numbers["error"]) > numbers["allowed_part"] * numbers["exchanged"]
     assert e.value.advice.startswith("a smaller tolerance")
+
+
+def test_the_energy_guard_looks_inside_steps() -> None:
+    """Long steps of order 5 through a linkage lose energy on the way."""
+    long = {"solver.method": "explicit_rk", "solver.order": 5, "solver.step": 0.2}
+    with pytest.raises(hydrodae.SolverError, match="energy"):
+        hydrodae.run(
+            ROOT / "cases" / "benchmarks" / "bricard.toml",
+            set={**long, "solver.energy_guard": 1e-6},
+        )

@@ -31,7 +31,6 @@ const std::vector<MethodTraits>& methods() {
        .orders = {5, 8},
        .one_order = "",
        .fails_index_3 = "",
-       .reduces = true,
        .coarse_inside = true,
        .passes_singular_poses = true,
        .projects_rates = true,

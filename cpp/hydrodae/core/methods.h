@@ -18,7 +18,6 @@ struct MethodTraits {
   std::string_view fails_index_3; ///< why it fails on index 3; empty: it does not
   bool limits_order = false;      ///< does solver.max_order limit it?
   bool takes_radius = false;      ///< does solver.spectral_radius act on it?
-  bool reduces = false;           ///< does it take coordinates = "reduced"?
   /// Is the polynomial inside its adaptive steps of a lower order than their ends? Then steps are
   /// repeated up to an event instead of being cut there.
   bool coarse_inside = false;

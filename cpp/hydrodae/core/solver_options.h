@@ -30,7 +30,6 @@ struct SolverOptions {
   bool force = false;
   std::optional<double> length_scale;
   std::optional<double> time_scale;
-  std::string coordinates = "bodies";
 
   template <class O = SolverOptions> static Fields<O> fields() {
     return {
@@ -39,16 +38,6 @@ struct SolverOptions {
          "alpha on the Lie group, or projected explicit Runge-Kutta; auto: explicit_rk, radau or "
          "ida as suits the scene, and another of them where one cannot continue.",
          false, any_value, method_names()},
-        {"coordinates",
-         &O::coordinates,
-         "-",
-         "Unknowns of the motion: those of all bodies, with multipliers for all joints; or "
-         "reduced, "
-         "those of the joints of a tree, with multipliers only for what closes loops (explicit_rk "
-         "only).",
-         false,
-         any_value,
-         {"bodies", "reduced"}},
         {"formulation",
          &O::formulation,
          "-",

@@ -6,13 +6,12 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
-#include "hydrodae/integrate/body_space.h"
 #include "hydrodae/integrate/dormand_prince_5.h"
 #include "hydrodae/integrate/dormand_prince_8.h"
 #include "hydrodae/integrate/stiffness.h"
+#include "hydrodae/linalg/saddle_point.h"
 #include "hydrodae/system/mechanisms.h"
 #include "hydrodae/system/retract.h"
-#include "hydrodae/tree/joint_space.h"
 
 namespace hydrodae::integrate {
 
@@ -26,24 +25,28 @@ struct Pair {
 const Pair order_5{6, 5, tableaux::rk5_a, tableaux::rk5_b, tableaux::rk5_c};
 const Pair order_8{12, 8, tableaux::rk8_a, tableaux::rk8_b, tableaux::rk8_c};
 
-/// In coordinates x of a Space; y are always those of the bodies.
-template <class Space> class ExplicitRk : public Integrator {
+/// Rates f(t, y) of y = [q | u | z] by the saddle-point matrix, whose multipliers follow from y:
+///
+///   k_i = f(t + c_i h, y + h sum_j a_ij k_j),     y_1 = P(y + h sum_i b_i k_i)
+///
+/// with the projection P onto positions and rates of the constraints.
+class ExplicitRk : public Integrator {
 public:
   ExplicitRk(const system::Regime& system, const system::Pattern& pattern,
              const SolverOptions& options, double t0, const VectorX& y, const VectorX& yp)
       : pair_(options.order == 5 ? order_5 : order_8), fixed_(options.step > 0.0),
         max_step_(options.max_step > 0.0 ? options.max_step : options.end_time),
-        idle_reactions_(Space::is_of_bodies && system::has_idle_reactions(system)),
-        full_pattern_(pattern), e_(system, pattern, options.rtol), space_(e_), n_(space_.size()),
+        idle_reactions_(system::has_idle_reactions(system)), full_pattern_(pattern),
+        e_(system, pattern, options.rtol), saddle_(e_), n_(system.lambda0),
         guard_(t0, options.end_time, e_.time_scale()), t_(t0), t0_(t0), y_(y), yp_(yp),
         w_(system.n), k_(n_, 17) {
-    space_.enter(t_, y_, yp_, x_, xp_);
-    x0_ = stage_ = stage_xp_ = trial_ = trial_xp_ = inside_ = inside_xp_ = x_;
+    e_.accept(t_, y_, yp_);
+    y0_ = stage_ = stage_yp_ = trial_ = trial_yp_ = inside_ = inside_yp_ = y_;
     // A growth of the rounding error by 1e3 at most: the step is not the smallest that the method
     // could make, as it is for one of order 1.
     h_ = fixed_ ? options.step
                 : std::min(max_step_, e_.first_step(y, yp) * std::pow(options.rtol, 0.2 - 0.5));
-    if (!find_rates())
+    if (!saddle_.accelerations(t_, y_, yp_))
       throw SolverError(t_, {Reason::not_finite, "no finite accelerations at the start"});
   }
 
@@ -57,10 +60,7 @@ public:
     return idle_reactions_ && done_ > 0.0 ? pair_.b : std::span<const double>();
   }
   double stage(std::size_t i, VectorX& y, VectorX& yp) override;
-  linalg::Statistics statistics() const override {
-    linalg::Statistics all = e_.statistics;
-    return all += space_.statistics();
-  }
+  linalg::Statistics statistics() const override { return e_.statistics; }
   int quadrature_nodes() const override { return pair_.order == 5 ? 4 : 6; }
   /// Larger than it is between stages: in steps beyond a third of a wave the estimated errors are a
   /// hundred times too large.
@@ -70,7 +70,10 @@ public:
   }
 
 private:
-  bool find_rates() { return space_.rates(t_, x_, xp_) && space_.leave(t_, x_, xp_, y_, yp_); }
+  static constexpr double safety = 0.9, least_growth = 0.2, most_growth = 6.0; ///< of the step
+
+  /// Power of the error that bounds the next step.
+  double power() const { return 1.0 / (pair_.order == 5 ? 5.0 : 8.0); }
   void set_stage(const VectorX& start, double h, int stages, std::span<const double> a);
   bool try_step(double h);
   bool find_end(double h);
@@ -78,6 +81,8 @@ private:
   double error(double h);
   bool is_smooth(double h);
   double longest_at_rest(double err);
+  double growth(double err, double most);
+  void accept(double h, double t);
   void extend();
   void follow_polynomial(double x);
   [[noreturn]] void fail(Reason reason, const std::string& what);
@@ -88,13 +93,12 @@ private:
   const bool idle_reactions_; ///< no multiplier does work, and no unknown is found with them
   const system::Pattern& full_pattern_;
   linalg::Equations e_;
-  Space space_;
-  const Index n_;
+  linalg::SaddlePoint saddle_;
+  const Index n_; ///< number of q, u and z, which the method integrates
   linalg::ProgressGuard guard_;
   double t_ = 0.0, t0_ = 0.0, h_ = 0.0, done_ = 0.0; ///< `done_`: length of the last step
-  VectorX y_, yp_;                                   ///< of the bodies, at the end of the last step
-  VectorX x_, xp_, x0_;                              ///< the same in the space, and x at its start
-  VectorX stage_, stage_xp_, trial_, trial_xp_, inside_, inside_xp_, w_;
+  VectorX y_, yp_, y0_; ///< at the end of the last step, and y at its start
+  VectorX stage_, stage_yp_, trial_, trial_yp_, inside_, inside_yp_, w_;
   MatrixX k_;     ///< rates of the stages, one column each
   MatrixX dense_; ///< coefficients of the interpolant of order 7
   bool extended_ = false;
@@ -103,8 +107,8 @@ private:
   double usual_jump_ = 0.0; ///< of the accelerations between the last two stages, see is_smooth
 };
 
-template <class Space> void ExplicitRk<Space>::fail(Reason reason, const std::string& what) {
-  const std::string jam = space_.jam().empty() ? "" : ": " + space_.jam();
+void ExplicitRk::fail(Reason reason, const std::string& what) {
+  const std::string jam = saddle_.jam().empty() ? "" : ": " + saddle_.jam();
   throw SolverError(t_, {jam.empty() ? reason : Reason::friction,
                          what + jam + ", last step " + number_text(h_) + " s",
                          "",
@@ -114,52 +118,51 @@ template <class Space> void ExplicitRk<Space>::fail(Reason reason, const std::st
 }
 
 /// stage_ = start + h sum_j a_j k_j
-template <class Space>
-void ExplicitRk<Space>::set_stage(const VectorX& start, double h, int stages,
-                                  std::span<const double> a) {
+void ExplicitRk::set_stage(const VectorX& start, double h, int stages, std::span<const double> a) {
   stage_.head(n_) = start.head(n_);
   add_rates(h, a.first(static_cast<std::size_t>(stages)));
 }
 
 /// stage_ += h sum_j weights_j k_j
-template <class Space>
-void ExplicitRk<Space>::add_rates(double h, std::span<const double> weights) {
+void ExplicitRk::add_rates(double h, std::span<const double> weights) {
   for (std::size_t j = 0; j < weights.size(); ++j)
     if (weights[j] != 0.0)
       stage_.head(n_) += h * weights[j] * k_.col(static_cast<Index>(j));
 }
 
-template <class Space> bool ExplicitRk<Space>::try_step(double h) {
+/// Stages k_i, and trial_ = y + h sum_i b_i k_i before the projection. False when no finite
+/// accelerations exist.
+bool ExplicitRk::try_step(double h) {
   const int s = pair_.stages;
-  k_.col(0) = xp_.head(n_);
+  k_.col(0) = yp_.head(n_);
   for (int i = 1; i < s; ++i) {
-    set_stage(x_, h, i, pair_.a.subspan(static_cast<std::size_t>(i * s)));
-    if (!space_.rates(t_ + pair_.c[i] * h, stage_, stage_xp_))
+    set_stage(y_, h, i, pair_.a.subspan(static_cast<std::size_t>(i * s)));
+    if (!saddle_.accelerations(t_ + pair_.c[i] * h, stage_, stage_yp_))
       return false;
-    k_.col(i) = stage_xp_.head(n_);
+    k_.col(i) = stage_yp_.head(n_);
   }
-  set_stage(x_, h, s, pair_.b);
+  set_stage(y_, h, s, pair_.b);
   trial_ = stage_;
   return pair_.order == 8 || find_end(h);
 }
 
 /// The rates where the step ends. Those of order 8 are found once the end is on the constraints,
 /// since its estimate of the error does without them.
-template <class Space> bool ExplicitRk<Space>::find_end(double h) {
-  if (!space_.rates(t_ + h, trial_, trial_xp_))
+bool ExplicitRk::find_end(double h) {
+  if (!saddle_.accelerations(t_ + h, trial_, trial_yp_))
     return false;
-  k_.col(pair_.stages) = trial_xp_.head(n_);
+  k_.col(pair_.stages) = trial_yp_.head(n_);
   return true;
 }
 
 /// Local error in units of the tolerance. Of the two estimates of the method of order 8: Hairer,
 /// Norsett and Wanner, section II.10.
-template <class Space> double ExplicitRk<Space>::error(double h) {
+double ExplicitRk::error(double h) {
   e_.weights(y_, w_);
   auto size = [&](std::span<const double> weights) {
     stage_.setZero();
     add_rates(h, weights);
-    return e_.norm(w_, space_.of_bodies(x_, stage_));
+    return e_.norm(w_, stage_);
   };
   if (pair_.order == 5)
     return size(tableaux::rk5_e);
@@ -172,13 +175,13 @@ template <class Space> double ExplicitRk<Space>::error(double h) {
 /// hits would not be seen. They differ by little more than in the steps before where all is smooth;
 /// what is allowed was found on pendulums, linkages and floating bodies: 34 times the common at
 /// most.
-template <class Space> bool ExplicitRk<Space>::is_smooth(double h) {
+bool ExplicitRk::is_smooth(double h) {
   constexpr double allowed = 100.0, least = 3.0, memory = 0.8;
   if (pair_.order == 5)
     return true; // its estimate knows the end
   stage_.setZero();
   stage_.head(n_) = h * (k_.col(pair_.stages) - k_.col(pair_.stages - 1));
-  const double jump = std::max(e_.norm(w_, space_.of_bodies(x_, stage_)), least);
+  const double jump = std::max(e_.norm(w_, stage_), least);
   const double common = std::max(usual_jump_, least);
   if (!(jump <= allowed * common))
     return false;
@@ -189,7 +192,7 @@ template <class Space> bool ExplicitRk<Space>::is_smooth(double h) {
 /// Where nothing moves no error bounds the steps, and beyond the stability of the method they make
 /// a motion from rounding, the faster the longer they are: its bounds are about 5 (order 8) and 2.5
 /// (order 5) over the fastest rate, found once in each rest.
-template <class Space> double ExplicitRk<Space>::longest_at_rest(double err) {
+double ExplicitRk::longest_at_rest(double err) {
   constexpr double nothing = 1e-6; // of the tolerance
   if (err >= nothing) {
     rest_step_ = 0.0;
@@ -202,12 +205,33 @@ template <class Space> double ExplicitRk<Space>::longest_at_rest(double err) {
   return rest_step_;
 }
 
-template <class Space> double ExplicitRk<Space>::step(double end, double bound) {
-  constexpr double safety = 0.9, least = 0.2, most = 6.0;
-  const double power = 1.0 / (pair_.order == 5 ? 5.0 : 8.0);
+/// Growth of the next step by proportional-integral control (Gustafsson 1991).
+double ExplicitRk::growth(double err, double most) {
+  const double e = std::max(err, 1e-10);
+  const double grow =
+      std::clamp(safety * std::pow(e, -0.7 * power()) * std::pow(last_error_, 0.3 * power()),
+                 least_growth, most);
+  last_error_ = std::max(e, 1e-4);
+  return grow;
+}
+
+/// The step of length h to the time t ends in trial_.
+void ExplicitRk::accept(double h, double t) {
+  y0_ = y_;
+  y_ = trial_;
+  yp_ = trial_yp_;
+  t0_ = t_;
+  t_ = t;
+  done_ = h;
+  e_.accept(t_, y_, yp_);
+  ++e_.statistics.steps;
+  e_.statistics.last_step = done_;
+  e_.statistics.last_order = pair_.order;
+}
+
+double ExplicitRk::step(double end, double bound) {
   extended_ = false;
   bool failed = false;
-  space_.follow();
   for (;;) {
     const double left = end - t_, wanted = h_;
     const double allowed = fixed_ ? left : std::min(left, bound - t_);
@@ -230,74 +254,55 @@ template <class Space> double ExplicitRk<Space>::step(double end, double bound) 
     }
     const double err = fixed_ ? 0.0 : error(h);
     const bool good = err <= 1.0 && std::isfinite(err);
-    if (good && !(space_.project(t_ + h, trial_) && find_end(h))) {
+    if (good && !(saddle_.project(t_ + h, trial_) && find_end(h))) {
       if (fixed_)
         fail(Reason::drift, "the constraints cannot be met at the end of the step");
       shorten(e_.statistics.convergence_failures, 0.25);
       continue;
     }
     if (const bool rough = good && !fixed_ && !is_smooth(h); !good || rough) {
-      const double kept = std::isfinite(err) ? safety * std::pow(err, -power) : least;
-      shorten(e_.statistics.error_test_failures, rough ? 0.25 : std::max(least, kept));
+      const double kept = std::isfinite(err) ? safety * std::pow(err, -power()) : least_growth;
+      shorten(e_.statistics.error_test_failures, rough ? 0.25 : std::max(least_growth, kept));
       continue;
     }
-    x0_ = x_;
-    x_ = trial_;
-    xp_ = trial_xp_;
-    t0_ = t_;
-    done_ = h;
-    t_ = h == left ? end : t_ + h;
-    if (!space_.leave(t_, x_, xp_, y_, yp_))
-      fail(Reason::not_finite, "no finite accelerations");
-    space_.accept(t_, x_, xp_);
+    accept(h, h == left ? end : t_ + h);
     if (!fixed_) {
-      // Proportional-integral control (Gustafsson 1991).
-      const double e = std::max(err, 1e-10);
-      const double grow =
-          std::clamp(safety * std::pow(e, -0.7 * power) * std::pow(last_error_, 0.3 * power), least,
-                     failed ? 1.0 : most);
-      last_error_ = std::max(e, 1e-4);
-      h_ = h * grow;
+      h_ = h * growth(err, failed ? 1.0 : most_growth);
       if (h == left) // a step that was cut says nothing against longer ones
         h_ = std::max(h_, wanted);
       h_ = std::min({h_, max_step_, longest_at_rest(err)});
     }
-    ++e_.statistics.steps;
-    e_.statistics.last_step = done_;
-    e_.statistics.last_order = pair_.order;
     guard_.after_step(t_, [&] { return e_.diagnosis(t_, y_, yp_); });
     return t_;
   }
 }
 
-template <class Space>
-bool ExplicitRk<Space>::restart(double t, const VectorX& y, const VectorX& yp) {
+bool ExplicitRk::restart(double t, const VectorX& y, const VectorX& yp) {
   t_ = t0_ = t;
   y_ = y;
   yp_ = yp;
-  space_.follow();
-  space_.enter(t_, y_, yp_, x_, xp_);
-  x0_ = x_;
+  e_.accept(t_, y_, yp_);
+  y0_ = y_;
   done_ = usual_jump_ = 0.0;
   last_error_ = 1e-4;
   rest_step_ = 0.0;
   extended_ = false;
-  return find_rates();
+  return saddle_.accelerations(t_, y_, yp_);
 }
 
 /// The three further stages of the interpolant of order 7, and its coefficients.
-template <class Space> void ExplicitRk<Space>::extend() {
+void ExplicitRk::extend() {
   if (extended_ || pair_.order == 5)
     return;
   for (int i = 0; i < 3; ++i) {
-    set_stage(x0_, done_, 13 + i,
+    set_stage(y0_, done_, 13 + i,
               std::span(tableaux::rk8_extra_a).subspan(static_cast<std::size_t>(16 * i)));
-    if (!space_.rates(t0_ + tableaux::rk8_extra_c[i] * done_, stage_, stage_xp_))
+    if (!saddle_.accelerations(t0_ + tableaux::rk8_extra_c[i] * done_, stage_, stage_yp_))
       fail(Reason::not_finite, "no finite accelerations inside the step");
-    k_.col(13 + i) = stage_xp_.head(n_);
+    k_.col(13 + i) = stage_yp_.head(n_);
   }
   // f_0 = dy, f_1 = h k_0 - dy, f_2 = 2 dy - h (k_end + k_0), f_3.. = h D k; nested in x, 1 - x.
-  const auto dy = x_.head(n_) - x0_.head(n_);
+  const auto dy = y_.head(n_) - y0_.head(n_);
   dense_.setZero(n_, 7);
   dense_.col(0) = dy;
   dense_.col(1) = done_ * k_.col(0) - dy;
@@ -310,10 +315,10 @@ template <class Space> void ExplicitRk<Space>::extend() {
 }
 
 /// inside_ and its rates at x = (t - t0) / h of the last step, on the polynomial.
-template <class Space> void ExplicitRk<Space>::follow_polynomial(double x) {
+void ExplicitRk::follow_polynomial(double x) {
   Eigen::Matrix<double, 7, 1> value, slope; // factors of the columns, slope = d value / dx
-  inside_ = x0_;
-  inside_xp_ = xp_;
+  inside_ = y0_;
+  inside_yp_ = yp_;
   if (pair_.order == 5) {
     value.setZero();
     slope.setZero();
@@ -325,7 +330,7 @@ template <class Space> void ExplicitRk<Space>::follow_polynomial(double x) {
       }
     }
     inside_.head(n_).noalias() += k_.leftCols(7) * (done_ * value);
-    inside_xp_.head(n_).noalias() = k_.leftCols(7) * slope;
+    inside_yp_.head(n_).noalias() = k_.leftCols(7) * slope;
     return;
   }
   extend();
@@ -337,19 +342,19 @@ template <class Space> void ExplicitRk<Space>::follow_polynomial(double x) {
     slope[i] = factor * slope[i - 1] + (i % 2 == 0 ? value[i - 1] : -value[i - 1]);
   }
   inside_.head(n_).noalias() += dense_ * value;
-  inside_xp_.head(n_).noalias() = dense_ * (slope / done_);
+  inside_yp_.head(n_).noalias() = dense_ * (slope / done_);
 }
 
-template <class Space> void ExplicitRk<Space>::look_inside(double t, VectorX& y, VectorX& yp) {
+void ExplicitRk::look_inside(double t, VectorX& y, VectorX& yp) {
   if (idle_reactions_)
     follow_motion(t, y, yp);
   else
     interpolate(t, y, yp);
 }
 
-template <class Space> double ExplicitRk<Space>::stage(std::size_t i, VectorX& y, VectorX& yp) {
+double ExplicitRk::stage(std::size_t i, VectorX& y, VectorX& yp) {
   const auto s = static_cast<std::size_t>(pair_.stages);
-  set_stage(x0_, done_, static_cast<int>(i), pair_.a.subspan(i * s));
+  set_stage(y0_, done_, static_cast<int>(i), pair_.a.subspan(i * s));
   y = y_;
   yp = yp_;
   y.head(n_) = stage_.head(n_);
@@ -358,18 +363,18 @@ template <class Space> double ExplicitRk<Space>::stage(std::size_t i, VectorX& y
   return t0_ + pair_.c[i] * done_;
 }
 
-template <class Space> void ExplicitRk<Space>::follow_motion(double t, VectorX& y, VectorX& yp) {
-  if (!Space::is_of_bodies || t >= t_ || done_ == 0.0)
+void ExplicitRk::follow_motion(double t, VectorX& y, VectorX& yp) {
+  if (t >= t_ || done_ == 0.0)
     return interpolate(t, y, yp);
   follow_polynomial((t - t0_) / done_);
   y = y_;
   yp = yp_;
   y.head(n_) = inside_.head(n_);
-  yp.head(n_) = inside_xp_.head(n_);
+  yp.head(n_) = inside_yp_.head(n_);
   system::normalise(e_.system, y);
 }
 
-template <class Space> void ExplicitRk<Space>::interpolate(double t, VectorX& y, VectorX& yp) {
+void ExplicitRk::interpolate(double t, VectorX& y, VectorX& yp) {
   if (t >= t_ || done_ == 0.0) {
     y = y_;
     yp = yp_;
@@ -377,9 +382,11 @@ template <class Space> void ExplicitRk<Space>::interpolate(double t, VectorX& y,
   }
   follow_polynomial((t - t0_) / done_);
   // The polynomial misses the joints by its error, which `close` takes out of them.
-  if (!space_.rates(t, inside_, inside_xp_) || !space_.close(t, inside_, inside_xp_) ||
-      !space_.leave(t, inside_, inside_xp_, y, yp))
+  if (!saddle_.accelerations(t, inside_, inside_yp_))
     fail(Reason::not_finite, "no finite accelerations inside the step");
+  saddle_.close(t, inside_);
+  y = inside_;
+  yp = inside_yp_;
   system::normalise(e_.system, y);
 }
 
@@ -389,9 +396,7 @@ std::unique_ptr<Integrator> make_explicit_rk(const system::Regime& system,
                                              const system::Pattern& pattern,
                                              const SolverOptions& options, double t0,
                                              const VectorX& y, const VectorX& yp) {
-  if (options.coordinates == "reduced")
-    return std::make_unique<ExplicitRk<tree::JointSpace>>(system, pattern, options, t0, y, yp);
-  return std::make_unique<ExplicitRk<BodySpace>>(system, pattern, options, t0, y, yp);
+  return std::make_unique<ExplicitRk>(system, pattern, options, t0, y, yp);
 }
 
 } // namespace hydrodae::integrate

@@ -100,13 +100,8 @@ bool Equations::solve_algebraic(double t, VectorX& y) {
 }
 
 void Equations::jacobian(double t, const VectorX& y, const VectorX& yp) {
-  jacobian(t, y, yp, pattern, parts);
-}
-
-void Equations::jacobian(double t, const VectorX& y, const VectorX& yp, const system::Pattern& own,
-                         system::JacobianParts& out) {
   ++statistics.jacobian_calls;
-  mass_and_rows(t, y, yp, own, out);
+  mass_and_rows(t, y, yp, pattern, parts);
 }
 
 void Equations::mass_and_rows(double t, const VectorX& y, const VectorX& yp,

@@ -35,12 +35,8 @@ public:
   /// dF/dy and dF/dy' into `parts`.
   void jacobian(double t, const VectorX& y, const VectorX& yp);
 
-  /// The same into `out`, on another pattern.
-  void jacobian(double t, const VectorX& y, const VectorX& yp, const system::Pattern& own,
-                system::JacobianParts& out);
-
-  /// The same where the pattern holds the mass matrix and the constraint rows alone: it counts as
-  /// no Jacobian.
+  /// The same into `out`, where the pattern `own` holds the mass matrix and the constraint rows
+  /// alone: it counts as no Jacobian.
   void mass_and_rows(double t, const VectorX& y, const VectorX& yp, const system::Pattern& own,
                      system::JacobianParts& out);
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 
 #include "hydrodae/core/error.h"
+#include "hydrodae/core/methods.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/model/check.h"
-#include "hydrodae/core/methods.h"
 
 namespace hydrodae::model {
 
@@ -104,13 +104,6 @@ void check_formulation(const SolverOptions& o) {
                   std::string(why) + "; solver.force (--force) runs it all the same");
 }
 
-void check_coordinates(const SolverOptions& o) {
-  const MethodTraits* method = find_method(o.method);
-  if (o.coordinates == "reduced" && method && !method->reduces)
-    refuse_solver("coordinates", "\"reduced\" goes with method = \"explicit_rk\" only; " +
-                                     o.method + " takes coordinates = \"bodies\"");
-}
-
 } // namespace
 
 void check_solver(const Scene& scene) {
@@ -118,7 +111,6 @@ void check_solver(const Scene& scene) {
   check_order(o);
   check_step(o);
   check_formulation(o);
-  check_coordinates(o);
   check_counts(scene);
   const MethodTraits* method = find_method(o.method);
   if (o.max_order != 5 && !(method && method->limits_order))

@@ -10,7 +10,6 @@
 #include "hydrodae/statics/consistent_start.h"
 #include "hydrodae/statics/equilibrium.h"
 #include "hydrodae/system/mechanisms.h"
-#include "hydrodae/tree/joint_tree.h"
 
 namespace hydrodae::run {
 
@@ -58,8 +57,6 @@ Simulation::Simulation(Start start, model::Scene&& scene, double looser)
   begin_history();
   choose_method();
   make_integrator();
-  if (options_.coordinates == "reduced")
-    notes_.push_back(tree::JointTree(system_).in_words(regime_));
   measure_ = std::make_unique<measure::Measure>(regime_, 0.0, y_, yp_);
   recorder_ = std::make_unique<observe::Recorder>(regime_, *measure_);
   measure_->average_from(system_.has_waves() ? scene_.sea.ramp : 0.0);

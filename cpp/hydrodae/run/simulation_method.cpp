@@ -20,10 +20,7 @@ constexpr double step_edge = 0.02;
 
 /// By the start, where the method is "auto".
 void Simulation::choose_method() {
-  const bool chosen_here = !find_method(options_.method);
-  if (chosen_here && options_.coordinates == "reduced")
-    methods_ = MethodChoice(MethodOrder{{"explicit_rk"}, "no other has reduced coordinates"});
-  else if (chosen_here)
+  if (!find_method(options_.method))
     methods_ = MethodChoice(order_methods(find_traits(regime_, pattern_, options_, y_, yp_)));
   use_method();
 }

@@ -9,20 +9,16 @@ namespace hydrodae::system {
 
 namespace {
 
-/// Places of the multipliers in y = [q | u | z | lambda | mu | sigma]; `guided`: rows without
-/// a multiplier, or empty.
-void set_offsets(Regime& s, const std::vector<bool>& guided) {
+/// Places of the multipliers in y = [q | u | z | lambda | mu | sigma].
+void set_offsets(Regime& s) {
   s.lambdas.assign(s.system.n_rows, redundant);
   s.mus.assign(s.system.n_rows, redundant);
-  const auto acts = [&](const Row& row) {
-    return !row.dropped && (guided.empty() || !guided[row.number]);
-  };
   std::vector<bool> open(s.system.n_rows, false);
   for (const SwitchData& element : s.switches)
     open[s.couplers[static_cast<std::size_t>(element.coupler)].number] = !s.holds(element);
   s.n_lambda = s.n_mu = 0;
   for_each_row(s, [&](const Row& row, bool) {
-    if (acts(row) && !open[row.number])
+    if (!row.dropped && !open[row.number])
       s.lambdas[row.number] = s.lambda0 + s.n_lambda++;
   });
   s.mu0 = s.lambda0 + s.n_lambda;
@@ -68,10 +64,8 @@ std::array<double, 3> Regime::drive(const CouplerData& c, double t) const {
   return f;
 }
 
-void lay_out(Regime& s) { lay_out(s, {}); }
-
-void lay_out(Regime& s, const std::vector<bool>& guided) {
-  set_offsets(s, guided);
+void lay_out(Regime& s) {
+  set_offsets(s);
   set_scales(s);
   set_names(s);
 }

@@ -142,10 +142,6 @@ void set_mode(Regime& regime, const SwitchData& element, Regime::Mode mode);
 /// Offsets, scales and names of all unknowns, after rows came or went.
 void lay_out(Regime& regime);
 
-/// The same with no multipliers for the rows (n_rows,) that are true in `guided`: coordinates meet
-/// them by themselves (joint_tree.h).
-void lay_out(Regime& regime, const std::vector<bool>& guided);
-
 /// Scales of all unknowns, after those of the motion changed.
 void set_scales(Regime& regime);
 

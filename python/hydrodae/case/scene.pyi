@@ -93,10 +93,6 @@ _SolverMethod = Literal[
     "gauss",
     "lobatto_iiic",
 ]
-_SolverCoordinates = Literal[
-    "bodies",
-    "reduced",
-]
 _SolverFormulation = Literal[
     "stabilised",
     "index_2",
@@ -3450,7 +3446,6 @@ class Scene(SceneBase):
         *,
         end_time: float,
         method: _SolverMethod = ...,
-        coordinates: _SolverCoordinates = ...,
         formulation: _SolverFormulation = ...,
         start: _SolverStart = ...,
         rtol: float = ...,
@@ -3480,10 +3475,6 @@ class Scene(SceneBase):
             explicit_rk, radau or ida as suits the scene, and another of them where one cannot
             continue. Allowed: auto, radau, explicit_rk, ida, generalized_alpha, gauss,
             lobatto_iiic.
-        coordinates : text, default "bodies"
-            Unknowns of the motion: those of all bodies, with multipliers for all joints; or
-            reduced, those of the joints of a tree, with multipliers only for what closes loops
-            (explicit_rk only). Allowed: bodies, reduced.
         formulation : text, default "stabilised"
             Equations of the constraints: stabilised index 2 (Gear, Gupta, Leimkuhler), plain
             index 2, index 3, or index 1; the last three for comparisons. Allowed: stabilised,

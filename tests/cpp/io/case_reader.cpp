@@ -188,8 +188,7 @@ TEST_CASE("a wrong override is told with its key") {
         "--set joint.hing.type: no joint 'hing'; did you mean 'hinge'? (valid: hinge)");
   CHECK(message("solver.rtoll", "1") ==
         "--set solver.rtoll: unknown key 'rtoll' in [solver]; did you mean 'rtol'? (valid: method, "
-        "coordinates, formulation, start, end_time, rtol, step, max_step, max_order, order, "
-        "spectral_radius, "
+        "formulation, start, end_time, rtol, step, max_step, max_order, order, spectral_radius, "
         "baumgarte_time, energy_guard, branch_guard, accuracy, tolerance_assembly, "
         "force, length_scale, time_scale)");
   CHECK(
