@@ -28,27 +28,31 @@ struct Freedom {
 /// By its rows: a slide along each axis of marker A that no row spans, and the turns that its
 /// pairs of axes leave; empty for a kind that cannot be a link.
 std::optional<Freedom> freedom_of(const joint::JointType& type) {
-  using joint::X, joint::Y, joint::Z;
-  using Kind = joint::BasicRow::Kind;
-  if (type.rows.empty() || type.has_row(Kind::distance) || type.has_row(Kind::across))
-    return std::nullopt;
-  const auto has = [&](Kind kind, int i, int j) {
-    return std::any_of(type.rows.begin(), type.rows.end(), [&](const joint::BasicRow& row) {
-      return row.kind == kind && row.i == i && row.j == j;
-    });
+  using joint::BasicRow, joint::PerpRow, joint::ScrewRow, joint::SpanRow, joint::X, joint::Y,
+      joint::Z;
+  const auto count = [&](auto test) {
+    return std::count_if(type.rows.begin(), type.rows.end(), test);
   };
+  const auto has = [&](const BasicRow& wanted) {
+    return count([&](const BasicRow& row) { return row == wanted; }) > 0;
+  };
+  const auto held = count([](const BasicRow& row) { return std::holds_alternative<PerpRow>(row); });
+  const auto known =
+      held + count([](const BasicRow& row) {
+        return std::holds_alternative<SpanRow>(row) || std::holds_alternative<ScrewRow>(row);
+      });
+  if (known == 0 || known != static_cast<std::ptrdiff_t>(type.rows.size()))
+    return std::nullopt;
   Freedom out;
-  out.advances = type.has_row(Kind::screw);
-  for (const int axis : {X, Y, Z})
-    if (!has(Kind::span, axis, 0) && !(out.advances && axis == Z))
+  out.advances = type.has_row<ScrewRow>();
+  for (const joint::Axis axis : {X, Y, Z})
+    if (!has(joint::span(axis)) && !(out.advances && axis == Z))
       out.slides.push_back(axis);
-  const auto held = std::count_if(type.rows.begin(), type.rows.end(),
-                                  [](const auto& row) { return row.kind == Kind::perp; });
   if (held == 0)
     out.turn = Turn::ball;
-  else if (held == 1 && has(Kind::perp, X, Y))
+  else if (held == 1 && has(joint::perp(X, Y)))
     out.turn = Turn::crossed;
-  else if (held == 2 && has(Kind::perp, X, Z) && has(Kind::perp, Y, Z))
+  else if (held == 2 && has(joint::perp(X, Z)) && has(joint::perp(Y, Z)))
     out.turn = Turn::about_axis;
   else if (held != 3)
     return std::nullopt;
