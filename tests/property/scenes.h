@@ -46,7 +46,7 @@ inline model::Scene two_bodies(const joint::JointType& type, const std::vector<s
     if (type.has_two_points())
       joint.point_b = p + Vector3(0.3, 0.0, 0.4);
     joint.pitch = 0.3;
-    if (type.has_row(joint::BasicRow::Kind::across))
+    if (type.has_row<joint::AcrossRow>())
       for (int k = 0; k < 9; ++k)
         joint.path.push_back(p + Vector3(k - 4.0, planar ? 0.0 : 0.1 * std::sin(k), 0.1 * (k % 2)));
     if (planar)

@@ -33,8 +33,7 @@ Constraints::Constraints(const system::Regime& s, std::vector<system::MotionStar
   for (const system::JointData& j : s.joints)
     for (const system::RowData& row : j.rows)
       if (s.holds(row)) {
-        angle_[static_cast<std::size_t>(s.lambda(row) - s.lambda0)] =
-            row.kind.kind == joint::BasicRow::Kind::perp;
+        angle_[static_cast<std::size_t>(s.lambda(row) - s.lambda0)] = joint::is_angle(row.kind);
         lever_[s.lambda(row) - s.lambda0] = system::smaller_arm(s, j);
       }
   for (const system::CouplerData& c : s.couplers)

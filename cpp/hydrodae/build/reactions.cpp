@@ -9,7 +9,6 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/math/dense.h"
 #include "hydrodae/system/kinematics.h"
-#include "hydrodae/system/names.h"
 
 namespace hydrodae::build {
 
@@ -20,15 +19,14 @@ using joint::BasicRow;
 constexpr std::array<std::string_view, 4> pressing_joints = {"prismatic", "revolute", "cylindrical",
                                                              "sliding"};
 
-/// By what a multiplier of one loads body B: a force along axis i of marker A, or a moment
-/// b_j x a_i about its axes, which the rows of the joint hold in line with those of B.
+/// Load on body B by a multiplier of one, in the pose where both markers coincide: force and moment
+/// along the axes of marker A.
 Vector6 load_on_b(const BasicRow& row) {
-  Vector6 out = Vector6::Zero();
-  if (row.kind == BasicRow::Kind::span)
-    out[row.i] = 1.0;
-  else
-    out.tail<3>() = Vector3::Unit(row.j).cross(Vector3::Unit(row.i));
-  return out;
+  const joint::Marker marker;
+  const auto g = joint::geometry<double>(marker, Vector3::Zero(), Matrix3::Identity(),
+                                         Vector3::Zero(), Matrix3::Identity());
+  const joint::Row<double> at = joint::basic_row<double>(row, marker, marker, {}, g);
+  return joint::reaction(at.gradient, marker, marker, g);
 }
 
 /// Gradients of all rows of the scene that may be asked for, as columns by velocity coordinates.
@@ -88,7 +86,7 @@ std::string shared_rows(const system::Regime& s, const system::JointData& presse
   };
   for (const system::JointData& j : s.joints)
     for (const system::RowData& row : j.rows)
-      take(s.lambda(row), system::row_name(row.kind) + " of " + in_quotes(j.name),
+      take(s.lambda(row), joint::row_name(row.kind) + " of " + in_quotes(j.name),
            gradients.row(j, row.kind), &j == &pressed);
   for (const system::CouplerData& c : s.couplers)
     if (c.of_switch < 0)

@@ -1,41 +1,15 @@
 #pragma once
 /// The joint table: every joint is a row of data.
-///
-/// The marker on body A has the axes a_x, a_y, a_z and the origin A; that on body B has b_x, b_y,
-/// b_z and B. Two basic scalar rows between them give the standard joints (Haug, Computer Aided
-/// Kinematics and Dynamics of Mechanical Systems, 1989, ch. 9: "dot-1" and "dot-2" constraints):
-///
-///   span(i):    a_i . (B - A) = 0   [m]     the origins do not part along a_i
-///   perp(i,j):  a_i . b_j     = 0   [-]     two axes stay perpendicular
-///
-/// and two rows with a parameter of the joint:
-///
-///   distance():   |B - A|^2 / 2L - L/2 = 0             [m]   the origins keep the distance L
-///   screw():      a_z . (B - A) - P theta_z / 2 pi = 0 [m]   P: advance a turn
-///   across(i):    n_i . (B - C) = 0 [m]   C: nearest point of a curve carried by A (see path.h)
-///
-/// Both markers coincide in the reference pose (except along `distance`). `perp` rows also vanish
-/// when a body is flipped by 180 degrees; the branch is checked at the start of a run.
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "hydrodae/joint/rows.h"
+
 namespace hydrodae::joint {
-
-enum Axis : int { X = 0, Y = 1, Z = 2 };
-
-struct BasicRow {
-  enum class Kind { span, perp, distance, screw, across } kind = Kind::span;
-  int i = 0; ///< axis of marker A, or vector across the curve (0, 1)
-  int j = 0; ///< axis of marker B (perp only)
-};
-constexpr BasicRow span(Axis i) { return {BasicRow::Kind::span, i, 0}; }
-constexpr BasicRow perp(Axis i, Axis j) { return {BasicRow::Kind::perp, i, j}; }
-constexpr BasicRow distance() { return {BasicRow::Kind::distance, Z, Z}; }
-constexpr BasicRow across(int i) { return {BasicRow::Kind::across, i, 0}; }
-constexpr BasicRow screw() { return {BasicRow::Kind::screw, Z, Z}; }
 
 /// A motion that a joint leaves free and that has a coordinate of its own, along or about an axis
 /// of marker A (`turns_b`: about an axis of marker B).
@@ -69,14 +43,15 @@ struct JointType {
     for (const FreeMotion& motion : motions)
       if (motion.kind == FreeMotion::Kind::stretches)
         return true;
-    return has_row(BasicRow::Kind::distance);
+    return has_row<DistanceRow>();
   }
-  bool has_row(BasicRow::Kind kind) const {
-    for (const BasicRow& row : rows)
-      if (row.kind == kind)
-        return true;
-    return false;
+  /// Has it a row of this kind?
+  template <class Kind> bool has_row() const {
+    return std::any_of(rows.begin(), rows.end(),
+                       [](const BasicRow& row) { return std::holds_alternative<Kind>(row); });
   }
+  /// Has it a row that holds a rotation?
+  bool holds_turns() const { return std::any_of(rows.begin(), rows.end(), needs_turns); }
 
 private:
   bool has(bool angle) const {

@@ -84,34 +84,6 @@ void Observer::observe_weight() {
   }
 }
 
-/// Reaction of one row on B: force along the marker's axes of A, moment about the marker of B.
-Vector6 Observer::row_reaction(const JointData& j, const RowData& row,
-                               const joint::Geometry<double>& g, double lambda) const {
-  Vector6 reaction = Vector6::Zero();
-  const auto to_marker = [&](const Vector3& v) -> Vector3 { return j.A.axes.transpose() * v; };
-  switch (row.kind.kind) {
-  case joint::BasicRow::Kind::span:
-    reaction[row.kind.i] = lambda;
-    break;
-  case joint::BasicRow::Kind::perp: // moment b_j x a_i
-    reaction.tail<3>() =
-        lambda *
-        to_marker(Vector3(g.N * j.B.axes.col(row.kind.j)).cross(Vector3(j.A.axes.col(row.kind.i))));
-    break;
-  case joint::BasicRow::Kind::distance:
-    reaction.head<3>() = lambda / j.parameters.length * to_marker(g.e - j.A.point);
-    break;
-  case joint::BasicRow::Kind::across: // a force at the point that slides
-    reaction.head<3>() = lambda * to_marker(j.A.path->across<double>(row.kind.i, g.e).gradient);
-    break;
-  case joint::BasicRow::Kind::screw:
-    reaction[2] = lambda;
-    reaction[5] = -lambda * j.parameters.pitch / (2.0 * pi);
-    break;
-  }
-  return reaction;
-}
-
 void Observer::observe_joints(const double* y) {
   const bool shared = !redundant_joints_.empty();
   if (shared)
@@ -121,12 +93,11 @@ void Observer::observe_joints(const double* y) {
     const JointData& j = s_.joints[k];
     const joint::Geometry<double> g = joint_geometry<double>(j, ws_.bodies);
     joint::Vector12 load = joint::Vector12::Zero();
-    out_.reactions[k].setZero();
     for (const RowData& row : j.rows) {
       const double lambda = shared ? shared_[next++] : y[s_.lambda(row)];
       load += lambda * joint::basic_row<double>(row.kind, j.A, j.B, j.parameters, g).gradient;
-      out_.reactions[k] += row_reaction(j, row, g, lambda);
     }
+    out_.reactions[k] = joint::reaction(load, j.A, j.B, g);
     subtract(j, load);
   }
   for (std::size_t k = 0; k < s_.couplers.size(); ++k) {

@@ -79,8 +79,6 @@ private:
   void observe_tables(const HydroData& hydro);
   void observe_memory(const HydroData& hydro, const double* y);
   void observe_joints(const double* y);
-  Vector6 row_reaction(const JointData& j, const RowData& row, const joint::Geometry<double>& g,
-                       double lambda) const;
   void share_reactions(const double* y);
   void subtract(const JointData& j, const joint::Vector12& load);
   void observe_energy();

@@ -6,8 +6,6 @@
 namespace hydrodae::model {
 namespace {
 
-using Row = joint::BasicRow::Kind;
-
 [[noreturn]] void refuse(const Joint& joint, const std::string& key, const std::string& message) {
   refuse(Entry{"joint", joint.name}, key, message);
 }
@@ -38,9 +36,9 @@ void check_parameters(const Joint& joint, const joint::JointType& type) {
     refuse(joint, "restitution", "key 'restitution' needs one_sided = true");
   if (joint.contact_time && !joint.one_sided)
     refuse(joint, "contact_time", "key 'contact_time' needs one_sided = true");
-  if (type.has_row(Row::screw) && joint.pitch == 0.0)
+  if (type.has_row<joint::ScrewRow>() && joint.pitch == 0.0)
     refuse(joint, "pitch", kind + "needs the key 'pitch' [m per turn], and not zero");
-  if (!type.has_row(Row::across))
+  if (!type.has_row<joint::AcrossRow>())
     return;
   if (joint.path.empty())
     refuse(joint, "", kind + "needs the key 'path', the points of the curve that body A carries");
@@ -58,11 +56,11 @@ void check_points(const Scene& scene, const Joint& joint, const joint::JointType
   if (!a && !b)
     return;
   const std::string head = "body " + in_quotes(a ? joint.body_a : joint.body_b) + " is a point: ";
-  if (type.has_row(Row::perp) || type.has_row(Row::screw) || type.turns())
+  if (type.holds_turns() || type.turns())
     refuse(joint, a ? "body_a" : "body_b",
            head + "it has no rotation for a " + joint.type +
                " joint to hold; use spherical, distance, sliding or path");
-  if (a && (type.needs_axis || type.has_row(Row::across)))
+  if (a && (type.needs_axis || type.has_row<joint::AcrossRow>()))
     refuse(joint, "body_a",
            head + "it cannot carry the " + (type.needs_axis ? "axis" : "curve") + " of a " +
                joint.type + " joint; make it body_b");

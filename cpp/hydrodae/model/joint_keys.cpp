@@ -3,7 +3,6 @@
 namespace hydrodae::model {
 
 JointKeys joint_keys(const joint::JointType& type) {
-  using Row = joint::BasicRow::Kind;
   JointKeys keys{{"name", "type", "body_a", "body_b", "point"}, {}, {}};
   const auto has = [&](const std::vector<std::string>& more) {
     keys.own.insert(keys.own.end(), more.begin(), more.end());
@@ -14,17 +13,17 @@ JointKeys joint_keys(const joint::JointType& type) {
   };
   if (type.needs_axis)
     needs("axis");
-  else if (type.has_row(Row::perp))
+  else if (type.has_row<joint::PerpRow>())
     has({"axis"});
-  if (type.needs_axis || type.has_row(Row::perp))
+  if (type.needs_axis || type.has_row<joint::PerpRow>())
     has({"axis_x"});
   if (type.has_two_points())
     needs("point_b");
-  if (type.has_row(Row::distance))
+  if (type.has_row<joint::DistanceRow>())
     has({"length", "one_sided", "restitution", "contact_time"});
-  if (type.has_row(Row::screw))
+  if (type.has_row<joint::ScrewRow>())
     needs("pitch");
-  if (type.has_row(Row::across))
+  if (type.has_row<joint::AcrossRow>())
     needs("path");
   if (!type.motions.empty())
     has({"initial"});

@@ -141,9 +141,10 @@ std::vector<Link> vertical_links(const system::System& s, const system::Workspac
           add_motion(port.motion);
         if (port.motion < 0 && !stiffness.isZero(0.0)) // a bushing
           for (int i = 0; i < 3; ++i)
-            add(j,
-                joint::span_row<double>(j.A, j.B, i, system::joint_geometry<double>(j, ws.bodies))
-                    .gradient);
+            add(j, joint::SpanRow{i}
+                       .at<double>(j.A, j.B, j.parameters,
+                                   system::joint_geometry<double>(j, ws.bodies))
+                       .gradient);
       });
   return links;
 }

@@ -22,10 +22,11 @@ constexpr double start_balanced = 1e-8;
 bool tied(const joint::JointType& type, int axis) {
   int own = 0, all = 0;
   for (const joint::BasicRow& row : type.rows) {
-    if (row.kind != joint::BasicRow::Kind::perp)
+    const auto* perp = std::get_if<joint::PerpRow>(&row);
+    if (!perp)
       continue;
     ++all;
-    if (row.j == axis && row.i != axis)
+    if (perp->j == axis && perp->i != axis)
       ++own;
   }
   return own == 2 || all == 3;
@@ -53,12 +54,11 @@ void check_constraints(const Regime& s, const VectorX& y, const VectorX& r) {
     const std::string key = "joint." + j.name;
     for (const system::RowData& row : j.rows)
       if (s.holds(row))
-        check_row(s, r, key, s.lambda(row), s.mu(row),
-                  row.kind.kind == joint::BasicRow::Kind::perp);
+        check_row(s, r, key, s.lambda(row), s.mu(row), joint::is_angle(row.kind));
     // Rows of perpendicular axes also vanish when B is flipped. Axes that the joint ties stay
     // aligned: those of which no row of the type measures the angle between like axes.
     const auto g = system::joint_geometry<double>(j, ws.bodies);
-    for (int axis = 0; axis < 3 && j.type->has_row(joint::BasicRow::Kind::perp); ++axis)
+    for (int axis = 0; axis < 3 && j.type->has_row<joint::PerpRow>(); ++axis)
       if (tied(*j.type, axis) && j.A.axes.col(axis).dot(g.N * j.B.axes.col(axis)) < 0.0)
         throw ModelError(key, "joint '" + j.name + "' starts flipped by 180 degrees");
   }

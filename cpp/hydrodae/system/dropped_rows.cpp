@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hydrodae/system/names.h"
-
 namespace hydrodae::system {
 
 double smaller_arm(const System& s, const JointData& j) {
@@ -19,7 +17,7 @@ DroppedRows::DroppedRows(const Regime& s) : s_(s), workspace_(s), rest_(VectorX:
   for (const JointData& j : s.joints)
     for (const RowData& row : j.rows)
       if (row.dropped) {
-        const bool angle = row.kind.kind == joint::BasicRow::Kind::perp;
+        const bool angle = joint::is_angle(row.kind);
         joints_.push_back({&j, &row, angle ? 1.0 : smaller_arm(s, j)});
       }
   for (const CouplerData& c : s.couplers)
@@ -92,9 +90,9 @@ DroppedRows::Gap DroppedRows::largest(double t, const VectorX& y) {
     out.name = "constraints/" + c.name;
     out.unit = c.velocity_level ? (angle ? "rad/s" : "m/s") : (angle ? "rad" : "m");
   } else if (in_joint) {
-    const bool angle = in_joint->row->kind.kind == joint::BasicRow::Kind::perp;
+    const bool angle = joint::is_angle(in_joint->row->kind);
     out.key = "joint." + in_joint->joint->name;
-    out.name = "joints/" + in_joint->joint->name + " " + row_name(in_joint->row->kind);
+    out.name = "joints/" + in_joint->joint->name + " " + joint::row_name(in_joint->row->kind);
     out.unit = angle ? "rad" : "m";
   }
   return out;

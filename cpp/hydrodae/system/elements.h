@@ -38,7 +38,7 @@ void see_motion(const Regime& s, const Workspace<S>& ws, const PortData& port, S
 template <class S>
 void relative_rows(const JointData& j, const joint::Geometry<S>& g, joint::Vec12<S>* rows) {
   for (int i = 0; i < 3; ++i) {
-    rows[i] = joint::span_row<S>(j.A, j.B, i, g).gradient;
+    rows[i] = joint::SpanRow{i}.at<S>(j.A, j.B, j.parameters, g).gradient;
     const Vec3<S> a = j.A.axes.col(i).template cast<S>();
     rows[3 + i] << Vec3<S>::Zero(), -a, Vec3<S>::Zero(), g.N.transpose() * a;
   }

@@ -4,23 +4,6 @@
 
 namespace hydrodae::system {
 
-std::string row_name(const joint::BasicRow& row) {
-  static const std::array<std::string, 3> axis = {"x", "y", "z"};
-  switch (row.kind) {
-  case joint::BasicRow::Kind::span:
-    return "gap along " + axis[row.i];
-  case joint::BasicRow::Kind::perp:
-    return "axes " + axis[row.i] + "-" + axis[row.j];
-  case joint::BasicRow::Kind::distance:
-    return "distance";
-  case joint::BasicRow::Kind::across:
-    return row.i == 0 ? "gap across the path" : "second gap across the path";
-  case joint::BasicRow::Kind::screw:
-    break;
-  }
-  return "screw";
-}
-
 void set_names(Regime& s) {
   static const std::array<std::string, 6> position = {"position x", "position y",  "position z",
                                                       "roll angle", "pitch angle", "yaw angle"};
@@ -54,7 +37,7 @@ void set_names(Regime& s) {
     for (const RowData& row : j.rows) {
       if (!s.holds(row))
         continue;
-      const std::string head = "joints/" + j.name + " ", kind = row_name(row.kind);
+      const std::string head = "joints/" + j.name + " ", kind = joint::row_name(row.kind);
       s.names[s.lambda(row)] = head + "reaction (" + kind + ")";
       s.names[s.mu(row)] = head + "position multiplier (" + kind + ")";
       s.row_names[s.lambda(row)] = head + kind + ", velocity";

@@ -27,7 +27,7 @@ inline void motion_gradient(const Regime& s, const Workspace<double>& ws, const 
   out.turn = load * T;
   if (motion.kind == joint::FreeMotion::Kind::stretches &&
       joint::stretch_row<double>(j.A, j.B, g).value == 0.0)
-    out.turn = slope * (joint::distance_curvature(j.A, j.B, 1.0, g) - row * row.transpose());
+    out.turn = slope * (joint::distance().curvature(j.A, j.B, {1.0}, g) - row * row.transpose());
   if (port.delay < 0) {
     out.x_xi = out.v_u = out.W;
     out.v_xi = (T.transpose() * joint_velocity<double>(j, ws.bodies)).transpose();
@@ -86,7 +86,7 @@ inline void marker_gradient(const Regime& s, const Workspace<double>& ws, const 
   for (int i = 0; i < 6; ++i)
     out.W.row(i) = rows[i].transpose();
   for (int i = 0; i < 3; ++i) {
-    const joint::Matrix12 T = joint::span_curvature(j.A, j.B, i, g);
+    const joint::Matrix12 T = joint::SpanRow{i}.curvature(j.A, j.B, j.parameters, g);
     out.v_xi.row(i) = (T.transpose() * u).transpose();
     out.turn += load[i] * T;
   }

@@ -95,7 +95,7 @@ void set_scales(Regime& s) {
     const JointScale scale = joint_scale(s, j);
     for (const RowData& row : j.rows)
       if (s.holds(row))
-        set_row(s, scale, s.lambda(row), s.mu(row), row.kind.kind == joint::BasicRow::Kind::perp);
+        set_row(s, scale, s.lambda(row), s.mu(row), joint::is_angle(row.kind));
   }
   for (const CouplerData& c : s.couplers) {
     const MotionData& motion = s.motions[c.terms.front().motion];
