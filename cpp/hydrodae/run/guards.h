@@ -20,6 +20,7 @@ struct Step {
   const VectorX& yp;
   integrate::Integrator& integrator; ///< gives y, y' inside the step
   const measure::Measure& measure;
+  bool may_change = false; ///< another method can make the step again
 };
 
 class Guard {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "hydrodae/build/row_ranks.h"
 #include "hydrodae/core/methods.h"
 #include "hydrodae/linalg/saddle_point.h"
 #include "hydrodae/run/guards.h"
@@ -13,6 +14,7 @@ namespace hydrodae::run {
 namespace {
 
 constexpr double singular = 1e-2; ///< of the best independence of the rows seen
+constexpr double in_line = 0.1;   ///< of the best pivot: an eigenvalue is the square of a sine
 
 /// (n_lambda,) The mechanism of each constraint row.
 std::vector<int> row_mechanisms(const system::Regime& s) {
@@ -95,6 +97,12 @@ void PoseWatch::restart(const VectorX& y) {
 void PoseWatch::begin(const VectorX& y) {
   rows_ = std::make_unique<Rows>(s_);
   best_ = independence(0.0, y, VectorX::Zero(y.size()));
+  best_pivots_ = pivots(y);
+}
+
+VectorX PoseWatch::pivots(const VectorX& y) const {
+  return build::least_pivots(rows_->system, y, rows_->mechanism,
+                             std::max(rows_->system.n_mechanisms, 1));
 }
 
 VectorX PoseWatch::independence(double t, const VectorX& y, const VectorX& yp) {
@@ -108,7 +116,12 @@ VectorX PoseWatch::independence(double t, const VectorX& y, const VectorX& yp) {
 bool PoseWatch::is_singular(double t, const VectorX& y, const VectorX& yp) {
   const VectorX now = independence(t, y, yp);
   best_ = best_.cwiseMax(now);
-  return (now.array() <= singular * best_.array()).any();
+  const auto near = (now.array() <= singular * best_.array()).eval();
+  if (!near.any())
+    return false;
+  const VectorX least = pivots(y);
+  best_pivots_ = best_pivots_.cwiseMax(least);
+  return (near && least.array() <= in_line * best_pivots_.array()).any();
 }
 
 bool PoseWatch::near_singular(const Step& step) {
@@ -142,7 +155,7 @@ Halt PoseWatch::with_remedy(Halt halt, double t, const VectorX& y, const VectorX
 void PoseWatch::remember(Archive& a) {
   a(asked_);
   if (rows_)
-    a(best_);
+    a(best_, best_pivots_);
 }
 
 } // namespace hydrodae::run

@@ -14,8 +14,9 @@ struct Step;
 
 /// Decides whether a step was at or next to a singular pose of a closed loop: there the constraint
 /// rows of a mechanism are a hundred times nearer to dependence on each other than in its best pose
-/// seen. Rows that always follow from others are thus no singular pose. Scenes without loops have
-/// nothing to watch.
+/// seen, as the masses feel it, and so they are by geometry alone: light bars between heavy ones
+/// look dependent in any pose. Rows that always follow from others are thus no singular pose.
+/// Scenes without loops have nothing to watch.
 class PoseWatch {
 public:
   /// @param options whose method makes the steps; they outlive the watch, which follows changes
@@ -41,12 +42,14 @@ private:
 
   void begin(const VectorX& y);
   VectorX independence(double t, const VectorX& y, const VectorX& yp);
+  VectorX pivots(const VectorX& y) const;
   bool is_singular(double t, const VectorX& y, const VectorX& yp);
 
   const system::Regime& s_;
   const SolverOptions& options_;
   std::unique_ptr<Rows> rows_; ///< null: nothing to watch
   VectorX best_;               ///< independence of the rows in the best pose seen, by mechanism
+  VectorX best_pivots_;        ///< least pivots of the rows in the best pose seen, by mechanism
   long asked_ = 0;             ///< times that a singular pose would have mattered
   VectorX y_, yp_;             ///< scratch
 };

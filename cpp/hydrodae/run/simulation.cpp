@@ -209,7 +209,7 @@ void Simulation::measure_step() {
 }
 
 Step Simulation::last_step(bool event) {
-  return {step_start_, t_, event, y_, yp_, *integrator_, *measure_};
+  return {step_start_, t_, event, y_, yp_, *integrator_, *measure_, methods_.more()};
 }
 
 /// One step, cut short where a stop or dry friction changes.
