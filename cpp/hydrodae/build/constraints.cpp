@@ -50,6 +50,28 @@ Constraints::Constraints(const system::Regime& s, std::vector<system::MotionStar
     mu_[i] = velocity_level ? -1 : s.mu(row);
   });
   set_mechanisms();
+  set_tree();
+}
+
+void Constraints::set_tree() {
+  tree_.assign(static_cast<std::size_t>(size_.size()), false);
+  const Index ground = std::ssize(s_.bodies);
+  Sets sets(ground + 1);
+  // A body that keeps two coordinates at most is guided by the ground.
+  const auto place = [&](int body) {
+    return body < 0 || s_.bodies[body].n_active <= 2 ? ground : Index{body};
+  };
+  for (const system::JointData& j : s_.joints) {
+    const Index a = place(j.A.body), b = place(j.B.body);
+    const bool holds = std::any_of(j.rows.begin(), j.rows.end(),
+                                   [&](const system::RowData& row) { return s_.holds(row); });
+    if (!holds || sets.root(a) == sets.root(b))
+      continue;
+    sets.join(a, b);
+    for (const system::RowData& row : j.rows)
+      if (s_.holds(row))
+        tree_[static_cast<std::size_t>(s_.lambda(row) - s_.lambda0)] = true;
+  }
 }
 
 void Constraints::set_mechanisms() {

@@ -39,7 +39,11 @@ public:
   bool holds_rate(Index i) const { return i < s_.n_lambda || start(i).rate.has_value(); }
   bool is_angle(Index i) const { return angle_[static_cast<std::size_t>(i)]; }
   double lever(Index i) const { return lever_[i]; } ///< arm of the smaller body [m]
-  std::string name(Index i) const;                  ///< "joints/door gap along x"
+  /// Is row i of a joint of the spanning tree? These joints take their places in the order of the
+  /// case, each where its bodies do not hang together yet. Their rows are independent in any pose.
+  bool in_tree(Index i) const { return tree_[static_cast<std::size_t>(i)]; }
+  const std::vector<bool>& tree() const { return tree_; } ///< (size(),) `in_tree` of all rows
+  std::string name(Index i) const;                        ///< "joints/door gap along x"
   std::string key(Index i) const; ///< what of the case it belongs to: "joint.door"
 
   /// Mechanisms that rows or conditions of the start hold together; each closes by itself.
@@ -62,6 +66,7 @@ public:
 
 private:
   void set_mechanisms();
+  void set_tree();
   void append(std::vector<Eigen::Triplet<double>>& entries, const system::JointData& j, Index i,
               const joint::Vector12& gradient) const;
 
@@ -70,7 +75,7 @@ private:
   system::Workspace<double> ws_;
   VectorX scale_, size_, lever_;
   std::vector<Index> mu_;
-  std::vector<bool> angle_;
+  std::vector<bool> angle_, tree_;
   std::vector<Index> mechanism_, owner_; ///< of each row, of each velocity coordinate
   Index n_mechanisms_ = 0;
 };

@@ -1,5 +1,6 @@
 #include "hydrodae/build/rank.h"
 
+#include <Eigen/QR>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
@@ -37,12 +38,36 @@ bool is_small(const SparseMatrix& part, Index dense_limit) {
   return std::max(part.rows(), part.cols()) <= dense_limit;
 }
 
-std::vector<RankedRow> dense_rows(const SparseMatrix& part) {
-  const auto [order, pivots] = pivoted_columns(MatrixX(part).transpose());
+/// Columns of A by falling pivots, those that come `first` before the others: these are ranked by
+/// what the first ones leave of them. Pivots of all follow in units of the largest.
+std::vector<RankedRow> ranked_columns(const MatrixX& A, const std::vector<bool>& first) {
+  std::vector<Index> own[2];
+  for (Index k = 0; k < A.cols(); ++k)
+    own[first[static_cast<std::size_t>(k)] ? 0 : 1].push_back(k);
   std::vector<RankedRow> rows;
-  for (Index k = 0; k < part.rows(); ++k)
-    rows.push_back({order[static_cast<std::size_t>(k)], pivots[k]});
-  const double largest = rows.empty() ? 0.0 : rows.front().pivot;
+  MatrixX span(A.rows(), 0);
+  double largest = 0.0;
+  for (const std::vector<Index>& some : own) {
+    if (some.empty())
+      continue;
+    MatrixX left = A(Eigen::all, some);
+    for (int pass = 0; pass < 2 && span.cols() > 0; ++pass) // twice is enough against rounding
+      left -= span * (span.transpose() * left);
+    const auto [order, pivots] = pivoted_columns(left);
+    largest = std::max(largest, pivots[0]);
+    Index rank = 0;
+    for (Index k = 0; k < left.cols(); ++k) {
+      rows.push_back(
+          {some[static_cast<std::size_t>(order[static_cast<std::size_t>(k)])], pivots[k]});
+      if (pivots[k] > rank_tolerance * largest)
+        ++rank;
+    }
+    if (own[1].empty())
+      break;
+    const std::vector<Index> independent{order.begin(), order.begin() + rank};
+    span = Eigen::HouseholderQR<MatrixX>(left(Eigen::all, independent)).householderQ() *
+           MatrixX::Identity(A.rows(), rank);
+  }
   for (RankedRow& row : rows)
     row.pivot /= largest > 0.0 ? largest : 1.0;
   return rows;
@@ -113,12 +138,30 @@ SparseMatrix some_rows(const SparseMatrix& part, const std::vector<Index>& rows)
   return out;
 }
 
+/// Squared distances of the rows from those eliminated before them, as `NormalEquations::pivots`;
+/// where few rows do not come first, 0 for these: what the first ones leave of them is asked then.
+VectorX squared_pivots(const SparseMatrix& part, const std::vector<bool>& first) {
+  std::vector<Index> own;
+  for (Index i = 0; i < part.rows(); ++i)
+    if (first[static_cast<std::size_t>(i)])
+      own.push_back(i);
+  const std::size_t others = first.size() - own.size();
+  if (others == 0 || others > most_doubtful_rows)
+    return NormalEquations(part).pivots();
+  const SparseMatrix some = some_rows(part, own);
+  const VectorX found = NormalEquations(some).pivots();
+  VectorX out = VectorX::Zero(part.rows());
+  for (std::size_t k = 0; k < own.size(); ++k)
+    out[own[k]] = found[static_cast<Index>(k)];
+  return out;
+}
+
 /// Rows well away from the span of those before them are certain. Pivots of the normal equations
 /// are squares and say no more than that; of the few doubtful rows, what the certain ones leave of
 /// them is computed itself, and judged by the same tolerance as the dense pivots.
-std::vector<RankedRow> sparse_rows(SparseMatrix part) {
+std::vector<RankedRow> sparse_rows(SparseMatrix part, const std::vector<bool>& first) {
   normalise_rows(part);
-  const VectorX pivots = NormalEquations(part).pivots();
+  const VectorX pivots = squared_pivots(part, first);
   std::vector<RankedRow> rows;
   std::vector<Index> known, doubtful;
   double limit = certain;
@@ -131,8 +174,9 @@ std::vector<RankedRow> sparse_rows(SparseMatrix part) {
   }
   if (doubtful.empty())
     return rows;
-  const SparseMatrix first = some_rows(part, known), asked = some_rows(part, doubtful).transpose();
-  const NormalEquations equations(first);
+  const SparseMatrix certainly = some_rows(part, known),
+                     asked = some_rows(part, doubtful).transpose();
+  const NormalEquations equations(certainly);
   MatrixX left(part.cols(), asked.cols());
   for (Index k = 0; k < asked.cols(); ++k)
     left.col(k) = equations.remainder(VectorX(asked.col(k)));
@@ -184,12 +228,18 @@ std::vector<Component> components(const SparseMatrix& matrix) {
   return out;
 }
 
-std::vector<RankedRow> ranked_rows(const SparseMatrix& matrix, Index dense_limit) {
+std::vector<RankedRow> ranked_rows(const SparseMatrix& matrix, const std::vector<bool>& first,
+                                   Index dense_limit) {
   std::vector<RankedRow> rows;
   std::vector<Index> place(matrix.rows());
   for (const Component& c : components(matrix)) {
     const SparseMatrix part = block(matrix, c, place);
-    for (const RankedRow& row : is_small(part, dense_limit) ? dense_rows(part) : sparse_rows(part))
+    std::vector<bool> own(c.rows.size(), true);
+    for (std::size_t i = 0; i < own.size() && !first.empty(); ++i)
+      own[i] = first[static_cast<std::size_t>(c.rows[i])];
+    for (const RankedRow& row : is_small(part, dense_limit)
+                                    ? ranked_columns(MatrixX(part).transpose(), own)
+                                    : sparse_rows(part, own))
       rows.push_back({c.rows[static_cast<std::size_t>(row.row)], row.pivot});
   }
   return rows;
@@ -197,7 +247,7 @@ std::vector<RankedRow> ranked_rows(const SparseMatrix& matrix, Index dense_limit
 
 std::vector<Index> independent_rows(const SparseMatrix& matrix, Index dense_limit) {
   std::vector<Index> rows;
-  for (const RankedRow& row : ranked_rows(matrix, dense_limit))
+  for (const RankedRow& row : ranked_rows(matrix, {}, dense_limit))
     if (row.pivot > rank_tolerance)
       rows.push_back(row.row);
   std::sort(rows.begin(), rows.end());

@@ -34,7 +34,10 @@ struct RankedRow {
 /// All rows but empty ones, each component by falling pivots: greedily, the next is the row that
 /// the ones before it leave most of. In large components the rows that are well away from all
 /// others (pivot > 0.03) come first in the order of a sparse factorisation.
-std::vector<RankedRow> ranked_rows(const SparseMatrix& matrix,
+/// @param first  rows that come before the others of their component, by falling pivots among
+///               themselves; empty: all are alike. Large components heed it where at most 200 rows
+///               are others
+std::vector<RankedRow> ranked_rows(const SparseMatrix& matrix, const std::vector<bool>& first = {},
                                    Index dense_limit = usual_dense_limit);
 
 /// A largest set of independent rows, ascending; its size is the rank. A row counts as dependent

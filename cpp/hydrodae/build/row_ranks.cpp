@@ -61,7 +61,8 @@ std::vector<Ranking> rank_at(const system::System& s, Constraints& constraints, 
   const auto add = [&](const RankedRow& row) {
     out[static_cast<std::size_t>(constraints.mechanism(row.row))].rows.push_back(row);
   };
-  std::vector<RankedRow> rows = ranked_rows(balanced(s, constraints.gradient(wanted)));
+  std::vector<RankedRow> rows =
+      ranked_rows(balanced(s, constraints.gradient(wanted)), constraints.tree());
   std::stable_sort(rows.begin(), rows.end(),
                    [](const RankedRow& a, const RankedRow& b) { return a.pivot > b.pivot; });
   Mask missing = mask;
