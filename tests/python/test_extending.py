@@ -42,6 +42,7 @@ PLACES = [
         "std::vector<element::PtoLagged>>;",
         "std::vector<element::PtoQuadratic>",
     ),
+    ("span_b_row.h", "joint", "joint/rows.h", "AcrossRow, ScrewRow>;", "SpanBRow"),
 ]
 
 
@@ -58,11 +59,12 @@ def overlay(repository: Path, tmp_path: Path) -> Path:
         changed.parent.mkdir(parents=True, exist_ok=True)
         changed.write_text(listed((kernel / header).read_text(), include, last, entry))
     page = repository / "docs" / "extending.md"
-    (row,) = (b.text for b in all_blocks(page) if b.text.startswith('{"slotted"'))
+    rows = "".join(b.text for b in all_blocks(page) if b.text.startswith('{"slotted'))
+    assert rows.count("slotted") == 2
     types = tmp_path / "hydrodae" / "joint" / "types.h"
     types.parent.mkdir(parents=True, exist_ok=True)
     table = (kernel / "joint" / "types.h").read_text()
-    types.write_text(edit(table, r"table = \{\n", f"table = {{\n{row}"))
+    types.write_text(edit(table, r"table = \{\n", f"table = {{\n{rows}"))
     return tmp_path
 
 
@@ -74,12 +76,13 @@ def test_the_lists_of_the_kernel_take_the_templates(overlay: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "source", ["model/tables.cpp", "model/check_controller.cpp", "build/elements.cpp"]
+    "source",
+    ["model/tables.cpp", "model/check_controller.cpp", "build/elements.cpp", "joint/basic.cpp"],
 )
 def test_the_kernel_compiles_with_the_templates(
     repository: Path, overlay: Path, source: str
 ) -> None:
-    """Keys of all types, the check of controllers, and the laws of forces with their channels."""
+    """Keys of all types, checks of controllers, laws of forces with channels, rows of joints."""
     compiler = shutil.which("g++") or shutil.which("clang++")
     if compiler is None or not Path("/usr/include/eigen3").is_dir():
         pytest.skip("no C++ compiler, or no Eigen where Debian has it")

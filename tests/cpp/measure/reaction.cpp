@@ -19,7 +19,7 @@ const Parameters parameters{0.8, 0.3};
 /// a screw joint hold them.
 struct Draw {
   std::mt19937 engine{7};
-  Marker A{0}, B{1};
+  Marker A, B;
   Vector3 r_A, r_B;
   Matrix3 R_A, R_B;
   Geometry<double> g;
