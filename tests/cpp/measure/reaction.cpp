@@ -24,6 +24,10 @@ struct Draw {
   Matrix3 R_A, R_B;
   Geometry<double> g;
 
+  Draw() {
+    A.body = 0;
+    B.body = 1;
+  }
   double number() { return std::uniform_real_distribution<double>(-1.0, 1.0)(engine); }
   Vector3 vector() {
     const double x = number(), y = number();
