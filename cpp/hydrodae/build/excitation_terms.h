@@ -60,7 +60,7 @@ Eigen::MatrixXcd mesh_coefficients(const model::Scene& scene, const hull::Mesh& 
                                    const std::vector<sea::Component>& components);
 
 /// Which rows of `yaw_coefficients` are more than a tenth of the noise that the tables have from
-/// the symmetry of a body (element/excitation.cpp); all where the yaw does not matter. `length`:
+/// the symmetry of a body (water/excitation.cpp); all where the yaw does not matter. `length`:
 /// what compares moments with forces [m].
 std::vector<water::Excitation::Term> terms_that_matter(const Eigen::MatrixXcd& coefficients,
                                                        const water::YawFunctions& functions,

@@ -6,13 +6,13 @@
 
 namespace hydrodae::build {
 
-/// Length scale and lever of each body, force scale of each joint (build_scales.cpp).
+/// Length scale and lever of each body, force scale of each joint (scales.cpp).
 void set_body_scales(const model::Scene& scene, system::System& system);
 
 /// BodyData::scale_mass, once the groups are known.
 void set_scale_masses(system::System& system);
 
-/// Hydrostatics, added mass and radiation memory (build_hydro.cpp). Throws ModelError.
+/// Hydrostatics, added mass and radiation memory (hydro.cpp). Throws ModelError.
 void add_hydro(const model::Scene& scene, system::System& system);
 
 /// Added mass and radiation of the bodies that are wet in `scene`, by its database, into `s.hydro`
@@ -26,11 +26,11 @@ void check_mass(const system::System& s);
 void add_pose_tables(const model::Scene& scene, system::System& s);
 
 /// "float.heave" of coordinate c of a body in the water, as in databases; and where a label stands,
-/// -1: nowhere (build_hydro.cpp).
+/// -1: nowhere (hydro.cpp).
 std::string hydro_label(const model::Scene& scene, const system::HydroBody& body, int c);
 int label_index(const std::vector<std::string>& labels, const std::string& label);
 
-/// Kernels of the pairs that feel each other, rows that move first (build_convolution.cpp).
+/// Kernels of the pairs that feel each other, rows that move first (convolution.cpp).
 void add_convolution(const model::Scene& scene, const hydro::RadiationKernel& kernel,
                      system::System& s);
 
@@ -46,20 +46,20 @@ void note_axes(const model::Scene& scene, system::System& system);
 joint::Marker make_marker(const model::Scene& scene, const std::string& body, const Vector3& point,
                           const Matrix3& axes);
 
-/// Adds a joint and its motions (build_joints.cpp).
+/// Adds a joint and its motions (joints.cpp).
 system::JointData& add_joint(system::System& system, system::JointData joint);
 void add_joint(const model::Scene& scene, const model::Joint& joint, system::System& system);
 
-/// Adds the motion that stands for one coordinate of a body (build_joints.cpp).
+/// Adds the motion that stands for one coordinate of a body (joints.cpp).
 int body_motion(const model::Scene& scene, const std::string& body, const std::string& coordinate,
                 system::System& system);
 
-/// The motion of a joint by name, its first one without; -1 if absent (build_joints.cpp).
+/// The motion of a joint by name, its first one without; -1 if absent (joints.cpp).
 int joint_motion(const system::System& system, const std::string& joint,
                  const std::optional<std::string>& coordinate);
 
 /// Keeps the rows that restrict a free coordinate; those left over must hold as they are
-/// (build_joints.cpp). Throws ModelError.
+/// (joints.cpp). Throws ModelError.
 void select_rows(system::System& system);
 
 /// The conditions that hold attachments to their bodies (deformation.cpp).
@@ -72,41 +72,41 @@ void set_mode_loads(const model::Scene& scene, system::System& system);
 /// Notes modes of held bodies that the weight should load and does not (deformation.cpp).
 void note_weights(const model::Scene& scene, system::System& system);
 
-/// Couplers, drives, stops and one-sided distances (build_constraints.cpp). Throws ModelError.
+/// Couplers, drives, stops and one-sided distances (couplers.cpp). Throws ModelError.
 void add_constraints(const model::Scene& scene, system::System& system);
 
-/// Adds the coupler of a switch, open at first (build_constraints.cpp).
+/// Adds the coupler of a switch, open at first (couplers.cpp).
 void add_switch(const std::string& name, system::SwitchData element, system::System& system);
 
-/// Couplers hold what they find at the start (build_constraints.cpp).
+/// Couplers hold what they find at the start (couplers.cpp).
 void set_coupler_offsets(system::System& system);
 
-/// The forces of the case with their ports (build_elements.cpp).
+/// The forces of the case with their ports (elements.cpp).
 void add_elements(const model::Scene& scene, system::System& system);
 
 /// The reactions of joints that laws feel, once it is known which rows are kept (reactions.cpp).
 /// Throws ModelError where a joint has no single reaction that presses.
 void find_reactions(system::System& system);
-/// States of laws that start at rest, where the bodies start (build_elements.cpp). Throws
+/// States of laws that start at rest, where the bodies start (elements.cpp). Throws
 /// ModelError.
 void start_laws(system::System& system);
 
 /// Buoyancy and linear hydrostatics of all wet bodies, turned by their mean yaws
-/// (build_elements.cpp); made again by each call.
+/// (elements.cpp); made again by each call.
 void set_hydrostatics(const model::Scene& scene, system::System& system);
 
-/// Excitation of the sea where the bodies start (build_sea.cpp); needs `add_hydro`. Throws
+/// Excitation of the sea where the bodies start (sea.cpp); needs `add_hydro`. Throws
 /// ModelError.
 void add_sea(const model::Scene& scene, system::System& system);
 
-/// Gauges of the elevation, and the waves that they see (build_gauges.cpp); behind the markers.
+/// Gauges of the elevation, and the waves that they see (gauges.cpp); behind the markers.
 void add_gauges(const model::Scene& scene, system::System& system);
 
 /// Bodies whose wetted surface is that of a mesh (hulls.cpp).
 /// @param with_waves else in still water
 void add_hulls(const model::Scene& scene, bool with_waves, system::System& system);
 
-/// Morison elements and the water that they feel (build_morison.cpp). Throws ModelError.
+/// Morison elements and the water that they feel (morison.cpp). Throws ModelError.
 void add_morison(const model::Scene& scene, system::System& system);
 
 } // namespace hydrodae::build

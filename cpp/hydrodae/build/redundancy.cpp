@@ -254,8 +254,8 @@ struct Selection {
 
 /// The selection of one mechanism from its rankings in all poses.
 /// @param pose  the pose that the rows were chosen in
-Selection select_rows(const std::vector<const Ranking*>& rankings, double tolerance,
-                      std::size_t& pose) {
+Selection select_in_mechanism(const std::vector<const Ranking*>& rankings, double tolerance,
+                              std::size_t& pose) {
   const std::vector<double> pivots = best_pivots(rankings);
   Selection out;
   std::size_t rank = 0;
@@ -291,7 +291,7 @@ std::vector<Selection> select(const system::Regime& s, const Mask& mask,
     if (own.front()->rows.empty())
       continue;
     std::size_t pose = 0;
-    out.push_back(select_rows(own, tolerance, pose));
+    out.push_back(select_in_mechanism(own, tolerance, pose));
     out.back().transposed = gradients[pose];
   }
   return out;

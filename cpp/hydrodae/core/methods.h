@@ -1,6 +1,6 @@
 #pragma once
 /// The integrators, one row each: what solver.method may name, and all that the rest of the program
-/// has to know of a method. (solve/integrator.cpp makes them.)
+/// has to know of a method. (integrate/integrator.cpp makes them.)
 
 #include <string>
 #include <string_view>

@@ -14,7 +14,7 @@
 namespace hydrodae::line {
 
 /// Dynamic mooring line: lumped masses at the ends of elastic segments, with weight, buoyancy, the
-/// drag and inertia of the water, bending, and a flat seabed (element/line_model.h has the
+/// drag and inertia of the water, bending, and a flat seabed (line_model.h has the
 /// equations). Of one or more parts, with clumps and buoys between segments.
 struct Line {
   static constexpr std::string_view type = "line";
