@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests.benchmark import kernel_costs as costs
-from tests.benchmark.kernel_scenes import database, write_array
+from tests.benchmark.array_scenes import SPACING, Layout, database, write_array
 
 from hydrodae import Case
 
@@ -17,20 +17,23 @@ RECORD: costs.Record = {
 }
 
 
-@pytest.mark.parametrize("limited", [True, False])
-def test_arrays_take_energy_and_couple_as_they_say(limited: bool) -> None:
-    made = database(4, limited)
-    fit = made.memory["made up"]
+@pytest.mark.parametrize("rigid", [True, False])
+@pytest.mark.parametrize("neighbours", [True, False])
+def test_arrays_take_energy_and_couple_as_they_say(neighbours: bool, rigid: bool) -> None:
+    layout = Layout(19, neighbours, rigid)
+    fit = database(layout).memory["made up"]
     damping = fit.transfer(np.linspace(0.0, 5.0, 50))
     lowest = np.linalg.eigvalsh(damping + damping.conj().transpose(0, 2, 1)).min()
-    assert lowest > 0.0
-    apart = ~np.eye(4, dtype=bool)
-    assert np.all((fit.added_mass_inf[apart] == 0.0) == limited)
-    assert np.all((damping[:, apart] == 0.0) == limited)
+    assert lowest > -1e-9 * np.abs(damping).max()
+    assert np.linalg.eigvalsh(fit.added_mass_inf).min() > 0.0
+    at = np.repeat(layout.places(), len(layout.dofs), axis=0)
+    far = np.linalg.norm(at[:, None] - at, axis=2) / SPACING
+    reach = 2.0 if neighbours else 4.0  # neighbours are coupled through a third body as well
+    assert np.array_equal(np.abs(damping).max(axis=0) > 0.0, far < reach + 1e-9)
 
 
 def test_an_array_is_a_case(tmp_path: Path) -> None:
-    case = Case.read(write_array(tmp_path, limited=True, count=3).case)
+    case = Case.read(write_array(tmp_path, Layout(3, neighbours=True, rigid=True)))
     assert case.body_names == ["b0", "b1", "b2"]
 
 

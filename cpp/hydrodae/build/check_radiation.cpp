@@ -8,7 +8,6 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/math/dense.h"
-#include "hydrodae/math/dense_cholesky.h"
 #include "hydrodae/model/motion.h"
 
 namespace hydrodae::build {
@@ -60,47 +59,15 @@ std::string coordinate_name(const system::System& s, Index u) {
 /// The smallest eigenvalue and the coordinate that has most of its vector.
 std::pair<double, Index> lowest(const Damping& d, Index frequency) {
   Eigen::MatrixXcd lower = Eigen::MatrixXcd::Zero(d.size(), d.size());
-  for (Index u = 0; u < d.size(); ++u)
-    for (Index v = 0; v <= u; ++v) {
-      const Index at = Damping::place(u, v);
-      lower(u, v) = {d.real(frequency, at),
-                     d.imaginary.size() > 0 ? d.imaginary(frequency, at) : 0.0};
-    }
+  for (std::size_t k = 0; k < d.places.size(); ++k) {
+    const auto at = static_cast<Index>(k);
+    lower(d.places[k].row, d.places[k].column) = {
+        d.real(frequency, at), d.imaginary.size() > 0 ? d.imaginary(frequency, at) : 0.0};
+  }
   const auto [value, vector] = lowest_eigenpair(lower);
   Index u = 0;
   vector.cwiseAbs2().maxCoeff(&u);
   return {value, d.coordinates[static_cast<std::size_t>(u)]};
-}
-
-/// Is R + i I plus `shift` positive definite? So it is when the real form [R, -I; I, R] is: when R
-/// and its Schur complement R - I^T R^-1 I are, for I^T = -I.
-bool is_positive(const Damping& d, Index frequency, double shift) {
-  if (d.size() == 1)
-    return d.real(frequency, 0) + shift > 0.0;
-  const dense::Kernels& kernels = dense::kernels();
-  const Index n = dense::padded(d.size());
-  Damping::Rows R = Damping::Rows::Identity(n, n);
-  for (Index u = 0; u < d.size(); ++u) {
-    for (Index v = 0; v <= u; ++v)
-      R(v, u) = d.real(frequency, Damping::place(u, v));
-    R(u, u) += shift;
-  }
-  Damping::Rows U = R;
-  if (!kernels.factorise(n, U.data(), 0.0))
-    return false;
-  if (d.imaginary.size() == 0)
-    return true;
-  Damping::Rows W = Damping::Rows::Zero(n, n); // U^-T I
-  for (Index u = 0; u < d.size(); ++u)
-    for (Index v = 0; v < u; ++v) {
-      W(u, v) = d.imaginary(frequency, Damping::place(u, v));
-      W(v, u) = -W(u, v);
-    }
-  kernels.solve_left(n, U.data(), n, W.data());
-  R = -R;
-  kernels.add_gram(n, n, W.data(), R.data());
-  R = -R;
-  return kernels.factorise(n, R.data(), 0.0);
 }
 
 /// @param largest  of each coordinate over all frequencies, over its mass
@@ -115,7 +82,7 @@ void judge(const system::System& s, const std::vector<Damping>& all, const Vecto
     for (Index k = 0; k < d.size(); ++k) {
       const Index u = d.coordinates[static_cast<std::size_t>(k)];
       Index i = 0;
-      const double least = d.real.col(Damping::place(k, k)).minCoeff(&i);
+      const double least = d.diagonal.col(k).minCoeff(&i);
       if (largest[u] > negligible * scale && -least > part * largest[u]) {
         part = -least / largest[u];
         at = d.frequency[static_cast<std::size_t>(i)];
@@ -125,9 +92,11 @@ void judge(const system::System& s, const std::vector<Damping>& all, const Vecto
   if (which >= 0)
     refuse(s, what, which, at, part);
   double least = -allowed * scale;
-  for (const Damping& d : all)
+  for (const Damping& d : all) {
+    const Definite definite(d.places.empty() ? 0 : d.size(), d.places);
     for (Index i = 0; i < d.real.rows(); ++i) {
-      if (is_positive(d, i, -least))
+      const double* imaginary = d.imaginary.size() > 0 ? d.imaginary.row(i).data() : nullptr;
+      if (definite.test(d.real.row(i).data(), imaginary, -least))
         continue;
       const auto [value, u] = lowest(d, i);
       if (value < least) {
@@ -136,6 +105,7 @@ void judge(const system::System& s, const std::vector<Damping>& all, const Vecto
         which = u;
       }
     }
+  }
   if (which >= 0)
     refuse(s, what, which, at, -least / scale);
 }
@@ -162,7 +132,7 @@ void check_radiation(const model::Scene& scene, const system::System& s, const V
     what = "the transform of the radiation kernel";
     all = damping_of_kernel(h, mass);
   } else {
-    all = damping_of_fit(h, mass);
+    all = damping_of_fit(h, mass, allowed_fit);
   }
   VectorX most = VectorX::Zero(h.n_moving);
   if (h.damped)
@@ -170,7 +140,7 @@ void check_radiation(const model::Scene& scene, const system::System& s, const V
   for (const Damping& d : all)
     for (Index k = 0; k < d.size(); ++k) {
       double& own_most = most[d.coordinates[static_cast<std::size_t>(k)]];
-      own_most = std::max(own_most, d.real.col(Damping::place(k, k)).cwiseAbs().maxCoeff());
+      own_most = std::max(own_most, d.diagonal.col(k).cwiseAbs().maxCoeff());
     }
   judge(s, all, most, what, h.damped || !h.convolution.empty() ? allowed_table : allowed_fit);
 }

@@ -12,8 +12,7 @@
 #include "hydrodae/hydro/coverage.h"
 #include "hydrodae/hydro/frequency.h"
 #include "hydrodae/math/bspline.h"
-#include "hydrodae/math/dense_cholesky.h"
-#include "hydrodae/math/sets.h"
+#include "hydrodae/math/definite.h"
 #include "hydrodae/model/deformation.h"
 #include "hydrodae/model/motion.h"
 
@@ -188,8 +187,19 @@ std::string hydro_label(const model::Scene& scene, const system::HydroBody& hb, 
   return model::hydro_label(scene, scene.bodies[hb.body], static_cast<std::size_t>(c));
 }
 
-// Else a push moves the body towards the hand. Units differ: judged with a unit diagonal, and each
-// set of coupled coordinates by itself.
+/// Places of the lower triangle, by columns: of the same body, or coupled by added mass.
+static std::vector<Definite::Place> coupled_places(const system::HydroData& h) {
+  std::vector<Definite::Place> out;
+  for (Index v = 0; v < h.n_moving; ++v)
+    for (Index u = v; u < h.n_moving; ++u)
+      if (h.added_mass(u, v) != 0.0 || h.added_mass(v, u) != 0.0 ||
+          h.coordinates[static_cast<std::size_t>(u)].hydro_body ==
+              h.coordinates[static_cast<std::size_t>(v)].hydro_body)
+        out.push_back({u, v});
+  return out;
+}
+
+// Else a push moves the body towards the hand. Units differ: judged with a unit diagonal.
 void check_mass(const system::System& s) {
   const system::HydroData& h = s.hydro;
   const auto own = [&](Index u, Index v) { // of the bodies, without the water
@@ -206,7 +216,6 @@ void check_mass(const system::System& s) {
     return own(u, v) + 0.5 * (h.added_mass(u, v) + h.added_mass(v, u));
   };
   VectorX size(h.n_moving); // mass^-1/2
-  Sets sets(h.n_moving);
   for (Index u = 0; u < h.n_moving; ++u) {
     const system::HydroData::Coordinate& c = h.coordinates[static_cast<std::size_t>(u)];
     const double both = mass(u, u);
@@ -217,26 +226,15 @@ void check_mass(const system::System& s) {
               std::string(model::coordinate_names[static_cast<std::size_t>(c.component)]) +
               " are " + number_text(both) + " together, and must be positive");
     size[u] = 1.0 / std::sqrt(both);
-    for (Index v = 0; v < h.n_moving; ++v)
-      if (h.added_mass(v, u) != 0.0)
-        sets.join(u, v);
-    if (u > 0 && c.hydro_body == h.coordinates[static_cast<std::size_t>(u - 1)].hydro_body)
-      sets.join(u, u - 1);
   }
-  for (const std::vector<Index>& set : sets.lists().members) {
-    const Index n = dense::padded(std::ssize(set));
-    VectorX upper = VectorX::Zero(n * n); // row by row
-    for (Index i = 0; i < n; ++i)
-      upper[i * n + i] = 1.0;
-    for (std::size_t i = 0; i < set.size(); ++i)
-      for (std::size_t j = i; j < set.size(); ++j)
-        upper[static_cast<Index>(i) * n + static_cast<Index>(j)] =
-            size[set[i]] * mass(set[i], set[j]) * size[set[j]];
-    if (!dense::kernels().factorise(n, upper.data(), 0.0))
-      throw ModelError("hydro.database", "mass and added mass of the moving coordinates are not "
-                                         "positive definite together: a push somewhere moves the "
-                                         "bodies towards the hand");
-  }
+  const std::vector<Definite::Place> places = coupled_places(h);
+  std::vector<double> scaled;
+  for (const Definite::Place& at : places)
+    scaled.push_back(size[at.row] * mass(at.row, at.column) * size[at.column]);
+  if (!Definite(h.n_moving, places).test(scaled.data(), nullptr))
+    throw ModelError("hydro.database", "mass and added mass of the moving coordinates are not "
+                                       "positive definite together: a push somewhere moves the "
+                                       "bodies towards the hand");
 }
 
 void add_radiation(const model::Scene& scene, system::System& s) {

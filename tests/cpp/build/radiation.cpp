@@ -3,9 +3,11 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <random>
 
 #include "hydrodae/build/build.h"
 #include "hydrodae/io/case_reader.h"
+#include "hydrodae/math/dense.h"
 #include "hydrodae/system/system.h"
 #include "support.h"
 
@@ -40,9 +42,9 @@ model::Scene with_radiation_times(const model::Scene& given, double factor) {
   return scene;
 }
 
-/// Floats that heave, each with a real pole of its own. By two more poles the first of `coupled`
-/// loads the second `there` times as much as itself, and the second the first `back` times.
-model::Scene row_of_floats(int n, std::array<int, 2> coupled, double there, double back) {
+/// Floats that heave, of 1500 kg with their added mass and 10 m apart, with this memory of real
+/// poles of -1 1/s: B (n_poles, n), C (n, n_poles).
+model::Scene row_of_floats(const MatrixX& B, const MatrixX& C) {
   auto database = std::make_shared<hydro::Database>();
   database->rho = 1000.0;
   database->omega = Eigen::Vector2d(0.2, 2.0);
@@ -52,7 +54,8 @@ model::Scene row_of_floats(int n, std::array<int, 2> coupled, double there, doub
   model::Scene scene;
   scene.hydro = model::HydroOptions{};
   scene.hydro->radiation = "exponential";
-  for (int i = 0; i < n; ++i) {
+  const Index n = B.cols();
+  for (Index i = 0; i < n; ++i) {
     hydro::Hydrostatics h;
     h.displaced_volume = 1.0;
     h.stiffness(2, 2) = 1e4;
@@ -61,24 +64,66 @@ model::Scene row_of_floats(int n, std::array<int, 2> coupled, double there, doub
     body.motion = {"heave"};
     body.mass = 1000.0;
     body.inertia = Vector3::Constant(1000.0);
-    body.center_of_gravity = Vector3(10.0 * i, 0.0, -0.5);
+    body.center_of_gravity = Vector3(10.0 * static_cast<double>(i), 0.0, -0.5);
     database->bodies.push_back({body.name, body.center_of_gravity, h, {}, {}});
     database->coordinates.push_back(body.name + ".heave");
     scene.bodies.push_back(body);
   }
   fit.inputs = fit.outputs = database->coordinates;
   fit.added_mass_inf = MatrixX::Identity(n, n) * 500.0;
-  fit.states = n + 2;
-  fit.poles = Eigen::VectorXcd::Constant(n + 2, -1.0);
-  fit.input_matrix = 30.0 * Eigen::MatrixXcd::Identity(n + 2, n);
-  fit.output_matrix = 30.0 * Eigen::MatrixXcd::Identity(n, n + 2);
-  fit.input_matrix(n, coupled[0]) = fit.input_matrix(n + 1, coupled[1]) = 30.0;
-  fit.output_matrix(coupled[1], n) = 30.0 * there;
-  fit.output_matrix(coupled[0], n + 1) = 30.0 * back;
+  fit.states = static_cast<int>(B.rows());
+  fit.poles = Eigen::VectorXcd::Constant(B.rows(), -1.0);
+  fit.input_matrix = B.cast<std::complex<double>>();
+  fit.output_matrix = C.cast<std::complex<double>>();
   database->added_mass_inf = fit.added_mass_inf;
   database->fits = {fit};
   scene.database = database;
   return scene;
+}
+
+/// Floats with a pole each. By two more poles the first of `coupled` loads the second `there` times
+/// as much as itself, and the second the first `back` times.
+model::Scene coupled_pair(int n, std::array<int, 2> coupled, double there, double back) {
+  MatrixX B = 30.0 * MatrixX::Identity(n + 2, n), C = B.transpose();
+  B(n, coupled[0]) = B(n + 1, coupled[1]) = 30.0;
+  C(coupled[1], n) = 30.0 * there;
+  C(coupled[0], n + 1) = 30.0 * back;
+  return row_of_floats(B, C);
+}
+
+/// Residues s b b^T of poles that two neighbours feel each, and of a pole of each float, t e e^T.
+/// The eigenvalues of H are those of their sum over 1500 (1 + w^2).
+struct Residues {
+  MatrixX b; ///< (n_poles, n)
+  VectorX s; ///< (n_poles,)
+  double t = 0.0;
+
+  MatrixX sum() const {
+    return b.transpose() * s.asDiagonal() * b + t * MatrixX::Identity(b.cols(), b.cols());
+  }
+  double largest() const { return sum().diagonal().maxCoeff(); }
+  double lowest() const { return symmetric_eigenvalues(sum())[0]; }
+  std::string verdict() const {
+    const Index n = b.cols(), m = b.rows();
+    MatrixX B(m + n, n), C(n, m + n);
+    B << b, std::sqrt(t) * MatrixX::Identity(n, n);
+    C << b.transpose() * s.asDiagonal(), std::sqrt(t) * MatrixX::Identity(n, n);
+    const model::Scene scene = row_of_floats(B, C);
+    return message_of([&] { build::build(scene); });
+  }
+};
+
+/// A part of `feeding` poles has s = -1, the others s = 1.
+Residues random_residues(Index n, double feeding, std::mt19937& random) {
+  std::uniform_real_distribution<double> part(10.0, 30.0), chance(0.0, 1.0);
+  Residues out{MatrixX::Zero(3 * n, n), VectorX::Ones(3 * n)};
+  for (Index k = 0; k < 3 * n; ++k) {
+    out.b(k, k % n) = part(random);
+    out.b(k, (k + 1 + k / n) % n) = -part(random);
+    if (chance(random) < feeding)
+      out.s[k] = -1.0;
+  }
+  return out;
 }
 
 } // namespace
@@ -114,7 +159,7 @@ TEST_CASE("a coupled pair that feeds the motion is found among uncoupled bodies"
   for (const int n : {4, 70}) {
     CAPTURE(n);
     const auto message = [&](double there, double back) {
-      return message_of([&] { build::build(row_of_floats(n, {1, 3}, there, back)); });
+      return message_of([&] { build::build(coupled_pair(n, {1, 3}, there, back)); });
     };
     // H = (1, back; there, 1) / (1 + i w): Re H has the eigenvalues (1 +- k) / (1 + w^2) for both k
     CHECK(message(0.99, 0.99) == "no error");
@@ -125,6 +170,26 @@ TEST_CASE("a coupled pair that feeds the motion is found among uncoupled bodies"
     const std::string lag = message(1.2, -1.2);
     CHECK(contains(lag, "falls to -28 % of its largest"));
     CHECK((contains(lag, "float1 in heave") || contains(lag, "float3 in heave")));
+  }
+}
+
+TEST_CASE("coupled floats are judged by the eigenvalues of the sum of their residues") {
+  std::mt19937 random(5);
+  for (const Index n : {6, 25, 90}) {
+    CAPTURE(n);
+    CHECK(random_residues(n, 0.0, random).verdict() == "no error"); // positive by construction
+    Residues r = random_residues(n, 0.3, random);
+    const double lowest = r.lowest(), largest = r.largest();
+    for (const double limits : {0.98, 1.02, 20.0}) { // lowest + t = -limits 0.1 % (largest + t)
+      CAPTURE(limits);
+      r.t = (-lowest - 1e-3 * limits * largest) / (1.0 + 1e-3 * limits);
+      REQUIRE(r.lowest() == doctest::Approx(-1e-3 * limits * r.largest()).epsilon(1e-6));
+      if (limits < 1.0)
+        CHECK(r.verdict() == "no error");
+      else
+        CHECK(contains(r.verdict(), "falls to -" + std::string(limits < 2.0 ? "0.1" : "2") +
+                                        " % of its largest at 0.01 rad/s"));
+    }
   }
 }
 
