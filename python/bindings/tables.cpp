@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "bindings.h"
-#include "hydrodae/core/text.h"
 #include "hydrodae/core/methods.h"
+#include "hydrodae/core/text.h"
 
 namespace py = pybind11;
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "databases.h"
-#include "hydrodae/model/scene.h"
 #include "hydrodae/joint/types.h"
+#include "hydrodae/model/scene.h"
 
 namespace hydrodae::test {
 

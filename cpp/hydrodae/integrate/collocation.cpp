@@ -343,14 +343,14 @@ void Collocation::remember(Archive& a) {
 } // namespace
 
 std::unique_ptr<Integrator> make_radau(const system::Regime& system, const system::Pattern& pattern,
-                                       const SolverOptions& options, double t0,
-                                       const VectorX& y, const VectorX& yp) {
+                                       const SolverOptions& options, double t0, const VectorX& y,
+                                       const VectorX& yp) {
   return std::make_unique<Collocation>(Family::radau_iia, system, pattern, options, t0, y, yp);
 }
 
 std::unique_ptr<Integrator> make_gauss(const system::Regime& system, const system::Pattern& pattern,
-                                       const SolverOptions& options, double t0,
-                                       const VectorX& y, const VectorX& yp) {
+                                       const SolverOptions& options, double t0, const VectorX& y,
+                                       const VectorX& yp) {
   return std::make_unique<Collocation>(Family::gauss, system, pattern, options, t0, y, yp);
 }
 

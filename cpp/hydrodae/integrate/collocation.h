@@ -8,11 +8,11 @@
 namespace hydrodae::integrate {
 
 std::unique_ptr<Integrator> make_radau(const system::Regime& system, const system::Pattern& pattern,
-                                       const SolverOptions& options, double t0,
-                                       const VectorX& y, const VectorX& yp);
+                                       const SolverOptions& options, double t0, const VectorX& y,
+                                       const VectorX& yp);
 std::unique_ptr<Integrator> make_gauss(const system::Regime& system, const system::Pattern& pattern,
-                                       const SolverOptions& options, double t0,
-                                       const VectorX& y, const VectorX& yp);
+                                       const SolverOptions& options, double t0, const VectorX& y,
+                                       const VectorX& yp);
 std::unique_ptr<Integrator> make_lobatto_iiic(const system::Regime& system,
                                               const system::Pattern& pattern,
                                               const SolverOptions& options, double t0,

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "hydrodae/system/system.h"
 #include "hydrodae/system/regime.h"
+#include "hydrodae/system/system.h"
 
 namespace hydrodae::integrate {
 

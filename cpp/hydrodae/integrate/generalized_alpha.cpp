@@ -28,8 +28,7 @@ constexpr double newton_tolerance = 1e-8; ///< the step alone decides on the err
 class GeneralizedAlpha : public Integrator {
 public:
   GeneralizedAlpha(const system::Regime& system, const system::Pattern& pattern,
-                   const SolverOptions& options, double t0, const VectorX& y,
-                   const VectorX& yp)
+                   const SolverOptions& options, double t0, const VectorX& y, const VectorX& yp)
       : s_(system), pattern_(linalg::condensed(system, pattern)),
         e_(system, pattern_, newton_tolerance), newton_matrix_(system, pattern_), t_(t0), t0_(t0),
         h_(options.step), n_x_(system.n_u + system.n_z), y_(y), yp_(yp), y0_(y), yp0_(yp),

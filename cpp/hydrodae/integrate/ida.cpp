@@ -104,8 +104,8 @@ double norm_by_group(N_Vector x, N_Vector w, N_Vector id) {
 
 class Ida : public Integrator {
 public:
-  Ida(const system::Regime& s, const system::Pattern& p, const SolverOptions& options,
-      double t0, const VectorX& y0, const VectorX& yp0)
+  Ida(const system::Regime& s, const system::Pattern& p, const SolverOptions& options, double t0,
+      const VectorX& y0, const VectorX& yp0)
       : system(s), pattern(linalg::condensed(s, p)), rtol(share * options.rtol),
         equations(s, pattern, rtol), newton{{s, pattern}}, good(y0), good_rate(yp0), t_good(t0),
         now(y0), now_rate(yp0), out(s.n), lost(y0), lost_rate(yp0), t_(t0),
@@ -391,8 +391,8 @@ linalg::Statistics Ida::statistics() const {
 } // namespace
 
 std::unique_ptr<Integrator> make_ida(const system::Regime& system, const system::Pattern& pattern,
-                                     const SolverOptions& options, double t0,
-                                     const VectorX& y, const VectorX& yp) {
+                                     const SolverOptions& options, double t0, const VectorX& y,
+                                     const VectorX& yp) {
   return std::make_unique<Ida>(system, pattern, options, t0, y, yp);
 }
 

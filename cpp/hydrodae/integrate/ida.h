@@ -8,7 +8,7 @@ namespace hydrodae::integrate {
 
 /// Throws SolverError when SUNDIALS refuses.
 std::unique_ptr<Integrator> make_ida(const system::Regime& system, const system::Pattern& pattern,
-                                     const SolverOptions& options, double t0,
-                                     const VectorX& y, const VectorX& yp);
+                                     const SolverOptions& options, double t0, const VectorX& y,
+                                     const VectorX& yp);
 
 } // namespace hydrodae::integrate

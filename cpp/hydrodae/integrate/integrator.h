@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "hydrodae/core/archive.h"
-#include "hydrodae/linalg/statistics.h"
 #include "hydrodae/core/solver_options.h"
+#include "hydrodae/linalg/statistics.h"
 #include "hydrodae/system/jacobian.h"
 
 namespace hydrodae::integrate {

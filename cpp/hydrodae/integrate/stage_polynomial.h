@@ -2,8 +2,8 @@
 /// The polynomial of a step of a collocation method, through its start and its stages.
 
 #include "hydrodae/integrate/runge_kutta.h"
-#include "hydrodae/system/system.h"
 #include "hydrodae/system/regime.h"
+#include "hydrodae/system/system.h"
 
 namespace hydrodae::integrate {
 

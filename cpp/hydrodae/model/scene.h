@@ -12,6 +12,7 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/field.h"
+#include "hydrodae/core/solver_options.h"
 #include "hydrodae/element/bushing.h"
 #include "hydrodae/element/constant_load.h"
 #include "hydrodae/element/dry_friction.h"
@@ -37,7 +38,6 @@
 #include "hydrodae/model/input_file.h"
 #include "hydrodae/model/mode.h"
 #include "hydrodae/model/pose_table.h"
-#include "hydrodae/core/solver_options.h"
 #include "hydrodae/sea/gauge.h"
 #include "hydrodae/sea/wave.h"
 #include "hydrodae/water/morison.h"

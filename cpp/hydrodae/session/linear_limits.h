@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "hydrodae/system/kinematics.h"
 #include "hydrodae/model/scene.h"
+#include "hydrodae/system/kinematics.h"
 
 namespace hydrodae::session {
 

@@ -13,10 +13,10 @@
 #include "hydrodae/io/results_rows.h"
 #include "hydrodae/run/checkpoint.h"
 #include "hydrodae/run/simulation.h"
+#include "hydrodae/session/linear_limits.h"
 #include "hydrodae/session/output.h"
 #include "hydrodae/session/sea_sample.h"
 #include "hydrodae/session/second_run.h"
-#include "hydrodae/session/linear_limits.h"
 
 namespace hydrodae {
 

@@ -1,8 +1,8 @@
 #pragma once
 /// The static pose of the whole constrained scene in still water.
 
-#include "hydrodae/system/jacobian.h"
 #include "hydrodae/model/scene.h"
+#include "hydrodae/system/jacobian.h"
 
 namespace hydrodae::statics {
 

@@ -9,11 +9,11 @@
 #include "hydrodae/build/excitation_terms.h"
 #include "hydrodae/build/parts.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/hydro/frequency.h"
 #include "hydrodae/model/motion.h"
 #include "hydrodae/model/waves.h"
 #include "hydrodae/statics/equilibrium.h"
 #include "hydrodae/system/residual.h"
-#include "hydrodae/hydro/frequency.h"
 
 namespace hydrodae::statics {
 

@@ -10,8 +10,8 @@
 #include <complex>
 
 #include "../../property/scenes.h"
-#include "hydrodae/system/jacobian.h"
 #include "hydrodae/system/history.h"
+#include "hydrodae/system/jacobian.h"
 
 namespace {
 

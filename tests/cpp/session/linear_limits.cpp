@@ -9,8 +9,8 @@
 namespace {
 
 using namespace hydrodae;
-using system::BodyState;
 using session::LinearLimits;
+using system::BodyState;
 
 LinearLimits one_body() {
   LinearLimits limits;

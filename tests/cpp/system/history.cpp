@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "../support.h"
-#include "hydrodae/math/bspline.h"
-#include "hydrodae/system/residual.h"
-#include "hydrodae/model/scene.h"
-#include "hydrodae/hydro/database.h"
 #include "hydrodae/element/pto_linear.h"
+#include "hydrodae/hydro/database.h"
+#include "hydrodae/math/bspline.h"
+#include "hydrodae/model/scene.h"
+#include "hydrodae/system/residual.h"
 
 namespace hydrodae::tests {
 namespace {
