@@ -40,7 +40,7 @@ std::string terminals_text(const std::vector<control::Terminal>& terminals) {
   for (const control::Terminal& t : terminals) {
     char start[40];
     std::snprintf(start, sizeof start, "%.17g", t.start);
-    parts.push_back("{\"name\": " + quoted(t.name) + ", \"unit\": " + quoted(t.unit) +
+    parts.push_back("{\"name\": " + cosim::quoted(t.name) + ", \"unit\": " + cosim::quoted(t.unit) +
                     ", \"start\": " + start + "}");
   }
   return "[" + joined(parts) + "]";
@@ -58,7 +58,7 @@ public:
     const std::string hello =
         "{\"protocol\": \"hydrodae\", \"version\": 1, \"program\": \"hydrodae " HYDRODAE_VERSION
         "\", \"title\": " +
-        quoted(subject.title) + ", \"controller\": " + quoted(subject.controller) +
+        cosim::quoted(subject.title) + ", \"controller\": " + cosim::quoted(subject.controller) +
         ", \"period\": " + number(subject.period) + ", \"delay\": " + number(subject.delay) +
         ", \"time\": " + number(t) + ", \"end_time\": " + number(terminals.end_time) +
         ", \"inputs\": " + terminals_text(terminals.inputs) +
