@@ -10,7 +10,7 @@ LAYERS = [
     {"math"},
     {"sea", "hull"},
     {"hydro", "joint", "element", "control"},
-    {"water"},
+    {"water", "air"},
     {"line"},
     {"model"},
     {"io", "system", "cosim"},
@@ -22,7 +22,9 @@ LAYERS = [
     {"check", "session"},
 ]
 # Rooms that hold the equations of motion and the methods that integrate them.
-HEART = set("core math sea hull hydro joint element control water line system linalg integrate".split())
+HEART = set(
+    "core math sea hull hydro joint element control water air line system linalg integrate".split()
+)
 HEART |= {"events"}
 LEVEL = {name: level for level, names in enumerate(LAYERS) for name in names}
 ONLY = {
