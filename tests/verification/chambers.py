@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from scipy.integrate import simpson
 
 import hydrodae
 
@@ -62,6 +63,11 @@ def drive(scene: hydrodae.Scene, name: str = "column", **given: Any) -> None:
     """Let a column follow a drive with these keys, by default a function of Python."""
     keys: Any = given or {"python": True}
     scene.constraint.coordinate(f"drives_{name}", joint=name, drive=keys)
+
+
+def integral(run: Any, values: np.ndarray) -> float:
+    """Return the integral over the time of a run, whose samples are equally far apart."""
+    return float(simpson(values, x=run.time))
 
 
 def run_driven(scene: hydrodae.Scene, motion: Motion, end: float, **solver: Any) -> Any:

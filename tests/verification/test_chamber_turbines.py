@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from tests.verification import chambers
-from tests.verification.chambers import TIGHT
+from tests.verification.chambers import TIGHT, integral
 
 import hydrodae
 
@@ -45,11 +45,11 @@ def test_power_of_the_rotor_is_shaft_windage_and_stored() -> None:
     scene.output(step=0.01)
     run = chambers.run_driven(scene, chambers.column(0.3), 60.0)
     work = {
-        name: np.trapezoid(run[f"outlets/turbine/{name}"].values, run.time)
+        name: integral(run, run[f"outlets/turbine/{name}"].values)
         for name in ("power", "power_pneumatic", "power_turbine", "power_shaft", "power_electric")
     }
     speed = run["outlets/turbine/rotor_speed"].values
-    windage = np.trapezoid(1e-3 * speed**3, run.time)
+    windage = integral(run, 1e-3 * speed**3)
     energy = run["outlets/turbine/rotor_energy"].values
     change = energy[-1] - energy[0]
     assert work["power_turbine"] - work["power_shaft"] - windage == pytest.approx(
@@ -71,7 +71,8 @@ def test_measured_points_of_a_wells_turbine_are_that_turbine() -> None:
             scene.outlet.wells("out", flow_slope=0.775, **keys)
         run = chambers.run_driven(scene, chambers.column(0.3), 20.0)
         pressures.append(run["chambers/air/pressure"].values)
-    np.testing.assert_allclose(*pressures, rtol=0.0, atol=1e-8 * np.abs(pressures[0]).max())
+    one, other = pressures
+    np.testing.assert_allclose(one, other, rtol=0.0, atol=1e-8 * np.abs(one).max())
 
 
 def test_an_impulse_turbine_of_power_one_is_a_wells_turbine() -> None:
@@ -85,7 +86,8 @@ def test_an_impulse_turbine_of_power_one_is_a_wells_turbine() -> None:
         getattr(scene.outlet, kind)("out", **common)
         run = chambers.run_driven(scene, chambers.column(0.3), 20.0)
         pressures.append(run["chambers/air/pressure"].values)
-    np.testing.assert_allclose(*pressures, rtol=0.0, atol=1e-8 * np.abs(pressures[0]).max())
+    one, other = pressures
+    np.testing.assert_allclose(one, other, rtol=0.0, atol=1e-8 * np.abs(one).max())
 
 
 def test_a_controller_holds_the_speed() -> None:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from tests.verification import chambers
-from tests.verification.chambers import AREA, DENSITY, EXPONENT, OUTSIDE, TIGHT, VOLUME
+from tests.verification.chambers import AREA, DENSITY, EXPONENT, OUTSIDE, TIGHT, VOLUME, integral
 
 import hydrodae
 from hydrodae.linear import LinearModel
@@ -71,7 +71,7 @@ def test_bounce() -> None:
     scene, rest = chambers.plant(mass, velocity=small * expected), chambers.plant(mass)
     for one in (scene, rest):
         one.force.pto_linear("water", joint="column", stiffness=spring)
-    scene.solver(end_time=20.0, **TIGHT)
+        one.solver(end_time=20.0, **TIGHT)
     run = hydrodae.run(scene)
     rise = run["joints/column/displacement"].values
     np.testing.assert_allclose(rise, small * np.sin(expected * run.time), atol=1e-5 * small)
@@ -104,11 +104,11 @@ def test_what_the_column_does_is_taken_or_stored(kind: str, exponent: float) -> 
     add_outlet(scene, kind)
     scene.output(step=0.01)
     run = chambers.run_driven(scene, chambers.column(1.0), 60.0)
-    put_in = np.trapezoid(run["chambers/air/power_absorbed"].values, run.time)
-    taken = np.trapezoid(run["outlets/out/power"].values, run.time)
+    put_in = integral(run, run["chambers/air/power_absorbed"].values)
+    taken = integral(run, run["outlets/out/power"].values)
     stored = run["chambers/air/energy"].values
     assert stored.min() > -1e-6 * stored.max()
-    assert put_in - taken - stored[-1] + stored[0] == pytest.approx(0.0, abs=1e-5 * put_in)
+    assert put_in - taken - stored[-1] + stored[0] == pytest.approx(0.0, abs=1e-6 * put_in)
 
 
 def test_a_tank_blows_off() -> None:
@@ -121,8 +121,8 @@ def test_a_tank_blows_off() -> None:
     chambers.add_column(scene, "column")
     scene.chamber("air", volume=10.0, exponent=1.0, pressure=2e5)
     scene.outlet.orifice("out", chamber="air", coefficient=0.62, area=0.02)
-    scene.solver(end_time=1.0, **TIGHT)
-    scene.output(step=0.01)
+    scene.solver(end_time=4.0, **TIGHT)
+    scene.output(step=0.02)
     run = hydrodae.run(scene)
     pressure = OUTSIDE + run["chambers/air/pressure"].values
     ratio = 1.2**-3.5

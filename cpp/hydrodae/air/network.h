@@ -39,7 +39,7 @@ private:
     int from = 0, to = -1; ///< chambers; -1: the atmosphere
     int kink = -1;         ///< place of its side behind `side_at`; -1: it cannot jump
     int signal = -1;       ///< among the signals; -1: nothing is written to it
-    int rotor = -1;        ///< of its speed among the states; -1: it has none that changes
+    int rotor = -1;        ///< of its speed among the states; -1: no such speed
   };
 
   Network(Parts of, std::vector<double> masses, bool still);

@@ -76,6 +76,11 @@ _MorisonSurface = Literal[
     "mean",
     "instantaneous",
 ]
+_ValveDirection = Literal[
+    "out",
+    "in",
+    "both",
+]
 _TcpProtocol = Literal[
     "hydrodae",
     "hotint",
@@ -2431,6 +2436,7 @@ class OutletTypes(TypedList):
         area: float,
         to: str = ...,
         laminar_pressure: float = ...,
+        opening: float = ...,
     ) -> str:
         """Add `[[outlet]]` with the type "orifice".
 
@@ -2451,6 +2457,9 @@ class OutletTypes(TypedList):
         laminar_pressure : number, Pa, default 1
             Drop of pressure p_l below which the flow is linear: it removes the endless slope of
             a root at zero. A larger one makes runs cheaper. Allowed: > 0.
+        opening : number, default 1
+            Part of the area that is open at the start. A controller may write it. Allowed: 0 to
+            1.
 
         Returns
         -------
@@ -2495,6 +2504,55 @@ class OutletTypes(TypedList):
         CaseError
             A key or a value is wrong.
         """
+    def valve(
+        self,
+        name: str,
+        *,
+        chamber: str,
+        coefficient: float,
+        area: float,
+        to: str = ...,
+        laminar_pressure: float = ...,
+        opens_at: float = ...,
+        shuts_at: float = ...,
+        direction: _ValveDirection = ...,
+    ) -> str:
+        """Add `[[outlet]]` with the type "valve".
+
+        A check, relief or bypass valve: the drop of pressure opens it, and shuts it below.
+
+        Parameters
+        ----------
+        name : text
+            Name of the outlet in the results.
+        chamber : text
+            Chamber that it opens.
+        to : text, optional
+            Chamber to which it leads; default: the atmosphere.
+        coefficient : number
+            Discharge coefficient C. Allowed: > 0, <= 1.
+        area : number, m2
+            Area A of the hole. Allowed: > 0.
+        laminar_pressure : number, Pa, default 1
+            Drop of pressure p_l below which the flow is linear: it removes the endless slope of
+            a root at zero. A larger one makes runs cheaper. Allowed: > 0.
+        opens_at : number, Pa, default 0
+            Drop of pressure at which it opens. Allowed: >= 0.
+        shuts_at : number, Pa, default 0
+            Drop of pressure at which it shuts. Allowed: >= 0.
+        direction : text, default "out"
+            Which way it lets the air: out of its chamber, in, or both. Allowed: out, in, both.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
     def wells(
         self,
         name: str,
@@ -2504,6 +2562,15 @@ class OutletTypes(TypedList):
         speed: float,
         flow_slope: float,
         to: str = ...,
+        inertia: float = ...,
+        windage: float = ...,
+        torque: float = ...,
+        torque_exponent: float = ...,
+        torque_at: _Numbers = ...,
+        torque_load: _Numbers = ...,
+        efficiency_at: _Numbers = ...,
+        efficiency: _Numbers = ...,
+        generator_efficiency: float = ...,
         stall: float = ...,
         stall_slope: float = ...,
     ) -> str:
@@ -2522,7 +2589,29 @@ class OutletTypes(TypedList):
         diameter : number, m
             Diameter D of the rotor. Allowed: > 0.
         speed : number, rad/s
-            Speed W of rotation, which stays. Allowed: > 0.
+            Speed W of rotation: it stays, or with `inertia` begins so. A controller may write a
+            speed that stays. Allowed: > 0.
+        inertia : number, kg m2, optional
+            Moment of inertia I of the rotor with the generator; with it the speed is a state.
+            Allowed: > 0.
+        windage : number, N m s2/rad2, default 0
+            Torque a_w W^2 that friction in the air takes. Allowed: >= 0.
+        torque : number, N m (s/rad)^b, default 0
+            Coefficient a of the generator's torque a W^b. Allowed: >= 0.
+        torque_exponent : number, default 2
+            Its exponent b. Allowed: 0 to 10.
+        torque_at : list of numbers, rad/s, optional
+            Speeds at which the torque of the generator is given instead. Allowed: >= 0.
+        torque_load : list of numbers, N m, optional
+            That torque at these speeds. Allowed: >= 0.
+        efficiency_at : list of numbers, optional
+            Dimensionless pressures |Psi| at which the efficiency is given, from 0 on. Allowed:
+            >= 0.
+        efficiency : list of numbers, optional
+            Power at the shaft over p m / rho_in at these; negative where the shaft drives the
+            air. Without it the shaft has no torque. Allowed: <= 1.
+        generator_efficiency : number, default 1
+            Electric power over that at the shaft. Allowed: 0 to 1.
         flow_slope : number
             K of Phi = K Psi: flow over pressure, both dimensionless. Allowed: > 0.
         stall : number, optional
@@ -2530,6 +2619,233 @@ class OutletTypes(TypedList):
             0.
         stall_slope : number, optional
             K_s, the slope of Phi beyond. Allowed: >= 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def impulse(
+        self,
+        name: str,
+        *,
+        chamber: str,
+        diameter: float,
+        speed: float,
+        coefficient: float,
+        exponent: float,
+        to: str = ...,
+        inertia: float = ...,
+        windage: float = ...,
+        torque: float = ...,
+        torque_exponent: float = ...,
+        torque_at: _Numbers = ...,
+        torque_load: _Numbers = ...,
+        efficiency_at: _Numbers = ...,
+        efficiency: _Numbers = ...,
+        generator_efficiency: float = ...,
+        laminar: float = ...,
+    ) -> str:
+        """Add `[[outlet]]` with the type "impulse".
+
+        An axial impulse turbine: its flow is a power of the drop of pressure.
+
+        Parameters
+        ----------
+        name : text
+            Name of the outlet in the results.
+        chamber : text
+            Chamber that it opens.
+        to : text, optional
+            Chamber to which it leads; default: the atmosphere.
+        diameter : number, m
+            Diameter D of the rotor. Allowed: > 0.
+        speed : number, rad/s
+            Speed W of rotation: it stays, or with `inertia` begins so. A controller may write a
+            speed that stays. Allowed: > 0.
+        inertia : number, kg m2, optional
+            Moment of inertia I of the rotor with the generator; with it the speed is a state.
+            Allowed: > 0.
+        windage : number, N m s2/rad2, default 0
+            Torque a_w W^2 that friction in the air takes. Allowed: >= 0.
+        torque : number, N m (s/rad)^b, default 0
+            Coefficient a of the generator's torque a W^b. Allowed: >= 0.
+        torque_exponent : number, default 2
+            Its exponent b. Allowed: 0 to 10.
+        torque_at : list of numbers, rad/s, optional
+            Speeds at which the torque of the generator is given instead. Allowed: >= 0.
+        torque_load : list of numbers, N m, optional
+            That torque at these speeds. Allowed: >= 0.
+        efficiency_at : list of numbers, optional
+            Dimensionless pressures |Psi| at which the efficiency is given, from 0 on. Allowed:
+            >= 0.
+        efficiency : list of numbers, optional
+            Power at the shaft over p m / rho_in at these; negative where the shaft drives the
+            air. Without it the shaft has no torque. Allowed: <= 1.
+        generator_efficiency : number, default 1
+            Electric power over that at the shaft. Allowed: 0 to 1.
+        coefficient : number
+            c of Phi = c |Psi|^e. Allowed: > 0.
+        exponent : number
+            e of Phi = c |Psi|^e. Allowed: > 0, <= 1.
+        laminar : number, default 0.0001
+            Dimensionless pressure Psi_l below which the flow is linear: it removes the endless
+            slope at zero. Allowed: > 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def biradial(
+        self,
+        name: str,
+        *,
+        chamber: str,
+        diameter: float,
+        speed: float,
+        to: str = ...,
+        inertia: float = ...,
+        windage: float = ...,
+        torque: float = ...,
+        torque_exponent: float = ...,
+        torque_at: _Numbers = ...,
+        torque_load: _Numbers = ...,
+        efficiency_at: _Numbers = ...,
+        efficiency: _Numbers = ...,
+        generator_efficiency: float = ...,
+        coefficient: float = ...,
+        exponent: float = ...,
+        laminar: float = ...,
+    ) -> str:
+        """Add `[[outlet]]` with the type "biradial".
+
+        A biradial turbine: its flow goes with the power 0.6 of the drop of pressure.
+
+        Parameters
+        ----------
+        name : text
+            Name of the outlet in the results.
+        chamber : text
+            Chamber that it opens.
+        to : text, optional
+            Chamber to which it leads; default: the atmosphere.
+        diameter : number, m
+            Diameter D of the rotor. Allowed: > 0.
+        speed : number, rad/s
+            Speed W of rotation: it stays, or with `inertia` begins so. A controller may write a
+            speed that stays. Allowed: > 0.
+        inertia : number, kg m2, optional
+            Moment of inertia I of the rotor with the generator; with it the speed is a state.
+            Allowed: > 0.
+        windage : number, N m s2/rad2, default 0
+            Torque a_w W^2 that friction in the air takes. Allowed: >= 0.
+        torque : number, N m (s/rad)^b, default 0
+            Coefficient a of the generator's torque a W^b. Allowed: >= 0.
+        torque_exponent : number, default 2
+            Its exponent b. Allowed: 0 to 10.
+        torque_at : list of numbers, rad/s, optional
+            Speeds at which the torque of the generator is given instead. Allowed: >= 0.
+        torque_load : list of numbers, N m, optional
+            That torque at these speeds. Allowed: >= 0.
+        efficiency_at : list of numbers, optional
+            Dimensionless pressures |Psi| at which the efficiency is given, from 0 on. Allowed:
+            >= 0.
+        efficiency : list of numbers, optional
+            Power at the shaft over p m / rho_in at these; negative where the shaft drives the
+            air. Without it the shaft has no torque. Allowed: <= 1.
+        generator_efficiency : number, default 1
+            Electric power over that at the shaft. Allowed: 0 to 1.
+        coefficient : number, default 0.195
+            c of Phi = c |Psi|^e. Allowed: > 0.
+        exponent : number, default 0.6
+            e of Phi = c |Psi|^e. Allowed: > 0, <= 1.
+        laminar : number, default 0.0001
+            Dimensionless pressure Psi_l below which the flow is linear: it removes the endless
+            slope at zero. Allowed: > 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def turbine(
+        self,
+        name: str,
+        *,
+        chamber: str,
+        diameter: float,
+        speed: float,
+        flow_at: _Numbers,
+        flow: _Numbers,
+        to: str = ...,
+        inertia: float = ...,
+        windage: float = ...,
+        torque: float = ...,
+        torque_exponent: float = ...,
+        torque_at: _Numbers = ...,
+        torque_load: _Numbers = ...,
+        efficiency_at: _Numbers = ...,
+        efficiency: _Numbers = ...,
+        generator_efficiency: float = ...,
+    ) -> str:
+        """Add `[[outlet]]` with the type "turbine".
+
+        A turbine by measured points: dimensionless flow over dimensionless pressure.
+
+        Parameters
+        ----------
+        name : text
+            Name of the outlet in the results.
+        chamber : text
+            Chamber that it opens.
+        to : text, optional
+            Chamber to which it leads; default: the atmosphere.
+        diameter : number, m
+            Diameter D of the rotor. Allowed: > 0.
+        speed : number, rad/s
+            Speed W of rotation: it stays, or with `inertia` begins so. A controller may write a
+            speed that stays. Allowed: > 0.
+        inertia : number, kg m2, optional
+            Moment of inertia I of the rotor with the generator; with it the speed is a state.
+            Allowed: > 0.
+        windage : number, N m s2/rad2, default 0
+            Torque a_w W^2 that friction in the air takes. Allowed: >= 0.
+        torque : number, N m (s/rad)^b, default 0
+            Coefficient a of the generator's torque a W^b. Allowed: >= 0.
+        torque_exponent : number, default 2
+            Its exponent b. Allowed: 0 to 10.
+        torque_at : list of numbers, rad/s, optional
+            Speeds at which the torque of the generator is given instead. Allowed: >= 0.
+        torque_load : list of numbers, N m, optional
+            That torque at these speeds. Allowed: >= 0.
+        efficiency_at : list of numbers, optional
+            Dimensionless pressures |Psi| at which the efficiency is given, from 0 on. Allowed:
+            >= 0.
+        efficiency : list of numbers, optional
+            Power at the shaft over p m / rho_in at these; negative where the shaft drives the
+            air. Without it the shaft has no torque. Allowed: <= 1.
+        generator_efficiency : number, default 1
+            Electric power over that at the shaft. Allowed: 0 to 1.
+        flow_at : list of numbers
+            Dimensionless pressures |Psi|, from 0 on. Allowed: >= 0.
+        flow : list of numbers
+            Dimensionless flow |Phi| at these, from 0 on. Allowed: >= 0.
 
         Returns
         -------

@@ -10,16 +10,17 @@ namespace {
 /// A column on a slide below a chamber with a plug; `more` is appended.
 std::string message(const std::string& more, const std::string& air = "volume = 90.0",
                     const std::string& press = "joint = \"column\"\narea = 10.0") {
-  const std::string text = "[[body]]\nname = \"column\"\nmotion = \"heave\"\nmass = 100.0\n"
-                           "center_of_gravity = [0, 0, 0]\n"
-                           "[[joint]]\nname = \"column\"\ntype = \"prismatic\"\n"
-                           "body_a = \"ground\"\nbody_b = \"column\"\naxis = [0, 0, 1]\n"
-                           "[[chamber]]\nname = \"air\"\n" +
-                           air + "\n[[piston]]\nname = \"water\"\nchamber = \"air\"\n" + press +
-                           "\n[[outlet]]\ntype = \"porous_plug\"\nname = \"plug\"\n"
-                           "chamber = \"air\"\nconductance = 1e-4\n"
-                           "[solver]\nend_time = 1.0\n" +
-                           more;
+  const std::string text =
+      "[[body]]\nname = \"column\"\nmotion = \"heave\"\nmass = 100.0\n"
+      "center_of_gravity = [0, 0, 0]\n"
+      "[[joint]]\nname = \"column\"\ntype = \"prismatic\"\n"
+      "body_a = \"ground\"\nbody_b = \"column\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n"
+      "[[chamber]]\nname = \"air\"\n" +
+      air + "\n[[piston]]\nname = \"water\"\nchamber = \"air\"\n" + press +
+      "\n[[outlet]]\ntype = \"porous_plug\"\nname = \"plug\"\n"
+      "chamber = \"air\"\nconductance = 1e-4\n"
+      "[solver]\nend_time = 1.0\n" +
+      more;
   return message_of([&] { io::parse_case(text, ""); });
 }
 
