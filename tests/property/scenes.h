@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "chambers.h"
 #include "databases.h"
 #include "forces.h"
 #include "hydrodae/joint/types.h"
@@ -126,6 +127,7 @@ inline std::vector<NamedScene> all_scenes() {
         }
         add_every_force(scene, random, hydro == "convolution");
         add_morison(scene);
+        add_chambers(scene);
         scenes.push_back({std::string(type.name) + ", " + motion[0] +
                               (motion.size() > 1 ? "..." : "") + ", " + hydro,
                           scene});

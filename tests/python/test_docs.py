@@ -28,6 +28,7 @@ from hydrodae.study.sweep.problem import read_problem
 RUN = (
     *("docs/results.md", "docs/forces.md", "docs/pto.md"),
     *("docs/sweeps.md", "docs/view.md", "docs/databases.md", "docs/flexible.md"),
+    "docs/chambers.md",
 )
 #: Names that a page takes as given.
 GIVEN = {"docs/databases.md": {"omega": [2.0, 2.5, 3.0, 3.5]}}

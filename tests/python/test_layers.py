@@ -10,7 +10,7 @@ LAYERS = [
     {"math"},
     {"sea", "hull"},
     {"hydro", "joint", "element", "control"},
-    {"water"},
+    {"water", "air"},
     {"line"},
     {"model"},
     {"io", "system", "cosim"},
@@ -22,7 +22,7 @@ LAYERS = [
     {"check", "session"},
 ]
 # Rooms that hold the equations of motion and the methods that integrate them.
-HEART = {"core", "math", "sea", "hull", "hydro", "joint", "element", "control", "water", "line"}
+HEART = {"core", "math", "sea", "hull", "hydro", "joint", "element", "control", "water", "line", "air"}
 HEART |= {"system", "linalg", "integrate", "events"}
 LEVEL = {name: level for level, names in enumerate(LAYERS) for name in names}
 ONLY = {

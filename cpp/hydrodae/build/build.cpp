@@ -93,6 +93,7 @@ system::System build(const model::Scene& scene, bool with_excitation) {
   add_constraints(scene, s);
   add_attachments(scene, s);
   add_elements(scene, s);
+  add_chambers(scene, s);
   set_mode_loads(scene, s);
   note_weights(scene, s);
   add_morison(scene, s);

@@ -232,7 +232,9 @@ void start_laws(system::System& s) {
   bool known = false;
   VectorX y;
   for (system::ElementList& list : s.elements) {
-    if (list.laws->shape.port != Port::points || list.laws->shape.n_states == 0)
+    const Port port = list.laws->shape.port;
+    const bool starts = port == Port::points || port == Port::along_coordinates;
+    if (!starts || list.laws->shape.n_states == 0)
       continue;
     if (!known) {
       y = system::initial_state(start);

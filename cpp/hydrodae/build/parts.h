@@ -87,6 +87,9 @@ void add_elements(const model::Scene& scene, system::System& system);
 /// The reactions of joints that laws feel, once it is known which rows are kept (reactions.cpp).
 /// Throws ModelError where a joint has no single reaction that presses.
 void find_reactions(system::System& system);
+/// Chambers of air with their pistons and outlets (chambers.cpp).
+void add_chambers(const model::Scene& scene, system::System& system);
+
 /// States of laws that start at rest, where the bodies start (elements.cpp). Throws
 /// ModelError.
 void start_laws(system::System& system);

@@ -5,6 +5,9 @@
 ///
 /// - along_joint: the coordinate s of a joint with one motion, s'; f on s [N, N m]; if wanted, what
 ///   the rows of the joint load body B with at its marker (force and moment, axes of marker A)
+/// - along_coordinates: n motions of joints, or amplitudes of modes, and their rates; a load on
+/// each
+///   [N, N m]
 /// - along_distance: the distance of two points, its rate; f pushes them apart [N]
 /// - on_body: displacement from the reference pose, twist (6 each, earth axes); force and moment
 ///   about the centre of gravity
@@ -32,14 +35,27 @@
 
 namespace hydrodae::element {
 
-enum class Port { along_joint, along_distance, on_body, between, points, in_water };
+enum class Port {
+  along_joint,
+  along_coordinates,
+  along_distance,
+  on_body,
+  between,
+  points,
+  in_water
+};
 
 constexpr bool is_along(Port p) { return p == Port::along_joint || p == Port::along_distance; }
 constexpr bool is_on_body(Port p) { return p == Port::on_body || p == Port::in_water; }
 /// Does the system keep the gradients of what such a port sees? Others are simple.
-constexpr bool has_rows(Port p) { return is_along(p) || p == Port::between; }
-constexpr int width(Port p, int n_points = 0) {
-  return p == Port::points ? 3 * n_points : is_along(p) ? 1 : 6;
+constexpr bool has_rows(Port p) {
+  return is_along(p) || p == Port::between || p == Port::along_coordinates;
+}
+/// @param n  number of points or of coordinates
+constexpr int width(Port p, int n = 0) {
+  if (p == Port::along_coordinates)
+    return n;
+  return p == Port::points ? 3 * n : is_along(p) ? 1 : 6;
 }
 
 /// How the work of a load counts in the balance of energy.
@@ -163,6 +179,7 @@ public:
   std::string lost; ///< of laws that `lost_at_rest`: what a linear model lacks, in words
   std::vector<std::string_view> parts;      ///< of a load on a body, that are reported beside it
   std::vector<std::string> names;           ///< (n,)
+  std::string_view folder = "forces";       ///< where the results list its channels
   std::vector<Unknown> unknowns;            ///< (n n_states,)
   std::vector<Quantity> channels;           ///< of each law
   std::vector<Signal> inputs;               ///< of each law (n_signals,)
@@ -177,6 +194,13 @@ public:
   int side_at = 0;           ///< place among the signals of a law of the sides of its kinks
 
   std::size_t size() const { return names.size(); }
+  /// Path of a channel or an input of one law: "forces/pto/damping". A name that begins with "/" is
+  /// a whole path.
+  std::string path(std::size_t law, std::string_view name) const {
+    if (name.starts_with('/'))
+      return std::string(name.substr(1));
+    return std::string(folder) + "/" + names[law] + (name.empty() ? "" : "/") + std::string(name);
+  }
   bool has_kinks() const { return n_kinks > 0; }
   /// Numbers of the Jacobian of one law.
   std::size_t jacobian_size() const {
@@ -214,6 +238,9 @@ public:
   /// Loads on bodies as they are reported, also along coordinates that do not move, and their
   /// parts: (n, 1 + n_parts, 6); by default the load alone. `out`: of `evaluate`.
   virtual void report(double t, const double* in, const double* out, double* loads) const;
+
+  /// Why this law has a load that is no number, in words; empty: nothing is known of it.
+  virtual std::string trouble(std::size_t /*law*/, const double* /*in*/) const { return {}; }
 
   /// Does this law have a load that has no slope at rest (so that no linear model has it)?
   virtual bool lost_at_rest(std::size_t law) const = 0;

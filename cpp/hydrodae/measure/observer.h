@@ -74,6 +74,8 @@ private:
   void observe(const ElementList& list, const double* y);
   void observe(const HydroData& hydro, const double* y);
   void observe_ports(const ElementList& list, const ElementScratch<double>& scratch);
+  void observe_motions(const system::PortData& port, const double* load,
+                       const joint::Vec12<double>* rows);
   double power_absorbed(const element::Shape& shape, const PortData& port, const double* in,
                         const double* load, const joint::Vec12<double>* rows) const;
   void observe_tables(const HydroData& hydro);

@@ -2,6 +2,7 @@
 
 #include "hydrodae/measure/observer.h"
 #include "hydrodae/system/elements.h"
+#include "hydrodae/system/mechanisms.h"
 
 namespace hydrodae::measure {
 
@@ -50,6 +51,9 @@ void Observer::observe_ports(const ElementList& list, const ElementScratch<doubl
             sum += load_at<double>(b, port.points[k], load + 3 * k);
         add_load(to_world(b, sum));
       }
+    } else if (shape.port == element::Port::along_coordinates) {
+      observe_motions(port, load, rows);
+      rows += shape.width;
     } else {
       joint::Vector12 sum = joint::Vector12::Zero();
       for (int i = 0; i < shape.width; ++i)
@@ -61,6 +65,24 @@ void Observer::observe_ports(const ElementList& list, const ElementScratch<doubl
         add_load(to_world(ws_.bodies[static_cast<std::size_t>(j.B.body)], sum.tail<6>()));
     }
     load += shape.n_out();
+  }
+}
+
+/// The loads of a law along several motions, summed over each body.
+void Observer::observe_motions(const PortData& port, const double* load,
+                               const joint::Vec12<double>* rows) {
+  for (const int body : port.bodies) {
+    if (body < 0)
+      continue;
+    Vector6 sum = Vector6::Zero();
+    for (std::size_t i = 0; i < port.motions.size(); ++i) {
+      const JointData& j = joint_of(s_, port.motions[i]);
+      if (j.A.body == body)
+        sum += load[i] * rows[i].head<6>();
+      if (j.B.body == body)
+        sum += load[i] * rows[i].tail<6>();
+    }
+    add_load(to_world(ws_.bodies[static_cast<std::size_t>(body)], sum));
   }
 }
 

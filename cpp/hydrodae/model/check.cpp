@@ -105,6 +105,9 @@ void check(const Scene& scene) {
   std::apply([&](const auto&... list) { (append_names(list, forces), ...); }, scene.forces);
   check_names(forces, "force");
   check_names(names_of(scene.morison), "morison");
+  check_names(names_of(scene.chambers), "chamber");
+  check_names(names_of(scene.pistons), "piston");
+  check_names(names_of(scene.outlets), "outlet");
   check_names(names_of(scene.waves), "wave");
   check_names(names_of(scene.gauges), "gauge");
   check_names(names_of(scene.controllers), "controller");
@@ -125,6 +128,7 @@ void check(const Scene& scene) {
     check_marker(scene, marker);
   check_forces(scene);
   check_morison(scene);
+  check_chambers(scene);
   for (const PoseTable& table : scene.pose_tables)
     check_reference({"pose_table", table.name}, "body", table.body, names_of_bodies(scene), "body");
   check_claims(scene);

@@ -13,6 +13,7 @@ void check_constraint(const Scene& scene, const Constraint& constraint);
 void check_marker(const Scene& scene, const Marker& marker);
 void check_forces(const Scene& scene);
 void check_morison(const Scene& scene);
+void check_chambers(const Scene& scene);
 /// Refuses what models an effect of the water on a body a second time (claims.h).
 void check_claims(const Scene& scene);
 void check_controller(const Scene& scene, const Controller& controller);
@@ -47,6 +48,11 @@ void check_ends(const Scene& scene, const Entry& entry, const std::string& body_
 void check_joint_coordinate(const Scene& scene, const Entry& entry, const std::string& joint_key,
                             const std::string& joint, const std::string& coordinate_key,
                             const std::optional<std::string>& coordinate);
+
+/// The joint has the coordinate along which the entry acts; `coordinate` says which of several.
+/// @returns whether it is an angle
+bool check_motion(const Scene& scene, const Entry& entry, const std::string& name,
+                  const std::optional<std::string>& coordinate);
 
 /// Refuses what is wrong with the values of an entry by itself, or of a run of this length.
 template <class Shared, class... T>

@@ -5,20 +5,6 @@
 namespace hydrodae::model {
 namespace {
 
-/// The joint has the coordinate along which the force acts; `coordinate` says which of several.
-/// @returns whether it is an angle
-bool check_motion(const Scene& scene, const Entry& entry, const std::string& name,
-                  const std::optional<std::string>& coordinate) {
-  check_joint_coordinate(scene, entry, "joint", name, "coordinate", coordinate);
-  const std::string& type = find_named(scene.joints, name)->type;
-  const std::vector<std::string> motions = joint::motion_names(*joint::find_joint_type(type));
-  if (!coordinate && motions.size() > 1)
-    refuse(entry, "joint",
-           "a " + type + " joint has more than one coordinate: name one by the key 'coordinate'" +
-               suggestion("", motions));
-  return coordinate.value_or(motions.front()).starts_with("angle");
-}
-
 /// The ends of a line may both be on the ground, or on one body.
 /// Both ends of a line may be on the ground or on one body: its weight and its tension count.
 template <class Line> void check_line(const Scene& scene, const Entry& entry, const Line& line) {
@@ -77,6 +63,18 @@ template <class Force> void check_force(const Scene& scene, const Force& force) 
 }
 
 } // namespace
+
+bool check_motion(const Scene& scene, const Entry& entry, const std::string& name,
+                  const std::optional<std::string>& coordinate) {
+  check_joint_coordinate(scene, entry, "joint", name, "coordinate", coordinate);
+  const std::string& type = find_named(scene.joints, name)->type;
+  const std::vector<std::string> motions = joint::motion_names(*joint::find_joint_type(type));
+  if (!coordinate && motions.size() > 1)
+    refuse(entry, "joint",
+           "a " + type + " joint has more than one coordinate: name one by the key 'coordinate'" +
+               suggestion("", motions));
+  return coordinate.value_or(motions.front()).starts_with("angle");
+}
 
 void check_forces(const Scene& scene) {
   const auto check_all = [&](const auto& list) {

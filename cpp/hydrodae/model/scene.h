@@ -10,6 +10,8 @@
 #include <tuple>
 #include <vector>
 
+#include "hydrodae/air/chamber.h"
+#include "hydrodae/air/outlets.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/field.h"
 #include "hydrodae/core/solver_options.h"
@@ -48,8 +50,8 @@ namespace hydrodae::model {
 /// Table [environment].
 struct Environment {
   static constexpr std::string_view doc =
-      "Gravity and water, where no hydrodynamic database states them.";
-  std::optional<double> gravity, water_density, water_depth;
+      "Gravity, the water where no hydrodynamic database states it, and the air.";
+  std::optional<double> gravity, water_density, water_depth, air_pressure, air_density;
 
   template <class E = Environment> static Fields<E> fields() {
     return {
@@ -61,6 +63,11 @@ struct Environment {
         {"water_depth", &E::water_depth, "m",
          "Depth of the water, where there is no hydrodynamic database; infinite by default.", false,
          more_than(0)},
+        {"air_pressure", &E::air_pressure, "Pa",
+         "Pressure of the atmosphere around chambers, absolute; default: 101 325.", false,
+         more_than(0)},
+        {"air_density", &E::air_density, "kg/m3",
+         "Density of the air around chambers; default: 1.225.", false, more_than(0)},
     };
   }
 };
@@ -345,6 +352,9 @@ struct Scene {
   std::vector<Marker> markers;
   Forces forces;
   std::vector<water::Morison> morison;
+  std::vector<air::Chamber> chambers;
+  std::vector<air::Piston> pistons;
+  std::vector<air::AnyOutlet> outlets;
   sea::Sea sea;
   std::vector<sea::Wave> waves;
   SolverOptions solver;

@@ -26,6 +26,9 @@ template <class Visit> void for_each_table(const Visit& visit) {
   visit("marker", &Scene::markers);
   visit("force", &Scene::forces);
   visit("morison", &Scene::morison);
+  visit("chamber", &Scene::chambers);
+  visit("piston", &Scene::pistons);
+  visit("outlet", &Scene::outlets);
   visit("gauge", &Scene::gauges);
   visit("controller", &Scene::controllers);
   visit("solver", &Scene::solver);

@@ -62,6 +62,19 @@ void write_constraint(std::ostream& out, const Scene& scene, const Constraint& c
       << '\n';
 }
 
+void write_chamber(std::ostream& out, const Scene& scene, const air::Chamber& chamber) {
+  out << "    " << chamber.name << ": " << number_text(chamber.volume) << " m3";
+  for (const air::Piston& piston : scene.pistons)
+    if (piston.chamber == chamber.name)
+      out << ", piston " << piston.name << " (" << piston.joint.value_or(piston.mode.value_or(""))
+          << ')';
+  for (const air::AnyOutlet& outlet : scene.outlets)
+    if (outlet->chamber == chamber.name)
+      out << ", " << outlet.type() << ' ' << outlet->name
+          << (outlet->to ? " to " + *outlet->to : std::string());
+  out << '\n';
+}
+
 template <class Force> void write_force(std::ostream& out, const Force& force) {
   out << "    " << force.name << ": " << Force::type;
   if constexpr (requires { force.body; })
@@ -139,6 +152,10 @@ std::string summary(const Scene& scene) {
   for (const water::Morison& m : scene.morison)
     out << "    " << m.name << ": " << (m.point ? "point" : "member") << " of body " << m.body
         << '\n';
+  if (!scene.chambers.empty())
+    out << "  chambers:\n";
+  for (const air::Chamber& chamber : scene.chambers)
+    write_chamber(out, scene, chamber);
   if (scene.hydro && scene.database)
     write_hydro(out, scene);
   write_solver(out, scene);

@@ -20,8 +20,8 @@ void add_forces(system::Regime& s, std::vector<Input>& out) {
           motion >= 0 && s.motions[static_cast<std::size_t>(motion)].motion.is_angle();
       for (const element::Signal& signal : list.laws->inputs) {
         if (!signal.name.empty())
-          out.push_back({"forces/" + list.laws->names[k] + "/" + std::string(signal.name),
-                         element::unit_along(signal.unit, angle), value, signal.least, &s.lags[i],
+          out.push_back({list.laws->path(k, signal.name), element::unit_along(signal.unit, angle),
+                         value, signal.least, &s.lags[i],
                          static_cast<std::size_t>(value - s.signals[i].data())});
         ++value;
       }

@@ -121,6 +121,8 @@ template <class Sink> struct Assembly {
            const element::Shape& shape, Index z);
   void law_of_points(const PortData& port, const double* load, const double* jacobian,
                      const element::Shape& shape, Index z);
+  void law_of_coordinates(const PortData& port, const Vector12* rows, const double* load,
+                          const double* jacobian, const element::Shape& shape, Index z);
   void law_by_reaction(const PortData& data, const PortGradient<1, 12>& port,
                        const double* jacobian, const element::Shape& shape, Index z);
   void sparse_law_of_points(const PortData& port, const double* load, const double* values,

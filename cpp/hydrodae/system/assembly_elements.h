@@ -2,6 +2,7 @@
 /// Of the assembly (assembly.h): the laws of System::elements.
 
 #include "hydrodae/system/assembly.h"
+#include "hydrodae/system/mechanisms.h"
 
 namespace hydrodae::system {
 
@@ -79,6 +80,53 @@ void Assembly<Sink>::law_by_reaction(const PortData& data, const PortGradient<1,
     }
     for (int k = 0; k < shape.n_states; ++k)
       sink.by_y(z + k, lambda, -by_lambda(1 + k));
+  }
+}
+
+/// The same of a law along several motions: load W_b^T f_b(x, v, z) by each motion a,
+///
+///   dx_a = W_a dxi,   dv_a = W_a du + (T_a^T u) dxi,   d(W_a^T f_a) = f_a T_a dxi
+template <class Sink>
+void Assembly<Sink>::law_of_coordinates(const PortData& port, const Vector12* rows,
+                                        const double* load, const double* jacobian,
+                                        const element::Shape& shape, Index z) {
+  const Index w = shape.width, n_states = shape.n_states;
+  const Eigen::Map<const MatrixX> J(jacobian, shape.n_out(), shape.n_in());
+  law_states(jacobian, shape, z);
+  const auto joined = [&](Index a) -> const JointData& {
+    return joint_of(s.system, port.motions[static_cast<std::size_t>(a)]);
+  };
+  const auto each_side = [&](const JointData& j, auto&& visit) {
+    for (const auto& [body, first] : {std::pair{j.A.body, 0}, std::pair{j.B.body, 6}})
+      if (body >= 0)
+        visit(body, first);
+  };
+  for (Index a = 0; a < w; ++a) {
+    const JointData& j = joined(a);
+    const auto motion = static_cast<std::size_t>(port.motions[static_cast<std::size_t>(a)]);
+    const Matrix12 T = joint::motion_curvature(s.motions[motion].motion, j.A, j.B,
+                                               joint_geometry<double>(j, ws.state.bodies));
+    const Vector12 turned = T.transpose() * joint_velocity<double>(j, ws.state.bodies);
+    each_side(j, [&](int body, int at) {
+      const RowVector6 by_u = rows[a].segment<6>(at).transpose(),
+                       turns = turned.segment<6>(at).transpose();
+      each_side(j, [&](int other, int from) {
+        load_by_displacement(other, body, load[a] * T.block<6, 6>(from, at));
+      });
+      for (Index b = 0; b < w; ++b)
+        each_side(joined(b), [&](int other, int from) {
+          const Vector6 arm = rows[b].segment<6>(from);
+          load_by_displacement(other, body, arm * (J(b, a) * by_u + J(b, w + a) * turns));
+          load_by_velocity(other, body, arm * (J(b, w + a) * by_u));
+        });
+      const BodyData& moved = s.bodies[static_cast<std::size_t>(body)];
+      for (Index k = 0; k < n_states; ++k) {
+        displacement_columns(z + k, body, -(J(w + k, a) * by_u + J(w + k, w + a) * turns));
+        velocity_columns(z + k, body, -J(w + k, w + a) * by_u);
+        for (int c = 0; c < moved.n_active; ++c)
+          sink.by_y(moved.u0 + c, z + k, -J(a, 2 * w + k) * by_u[moved.active[c]]);
+      }
+    });
   }
 }
 
@@ -213,6 +261,9 @@ template <class Sink> void Assembly<Sink>::add(const ElementList& list) {
       sparse_law_of_points(port, load, J, *list.laws, z);
     } else if (shape.port == Port::points) {
       law_of_points(port, load, J, shape, z);
+    } else if (shape.port == Port::along_coordinates) {
+      law_of_coordinates(port, rows, load, J, shape, z);
+      rows += shape.width;
     } else if (shape.in_water()) {
       law_in_water(port.body, J, shape.feels_rates);
     } else if (shape.port == Port::on_body) {

@@ -32,7 +32,7 @@ void add_port_channels(const System& s, const element::Elements& laws, const Por
 /// Own channels of one law: what its port shows, states, and what it declares.
 void add_channels(const System& s, const element::Elements& laws, std::size_t law,
                   const PortData& port, std::vector<Channel>& out) {
-  const std::string head = "forces/" + laws.names[law] + "/";
+  const std::string head = laws.path(law, "") + "/";
   const bool angle =
       port.motion >= 0 && s.motions[static_cast<std::size_t>(port.motion)].motion.is_angle();
   add_port_channels(s, laws, port, head, out);
@@ -43,7 +43,7 @@ void add_channels(const System& s, const element::Elements& laws, std::size_t la
         {head + u.name, 1, element::unit_along(u.unit, angle), "-", "State of the force."});
   }
   for (const element::Quantity& q : laws.channels)
-    out.push_back({head + std::string(q.name), q.width, element::unit_along(q.unit, angle), "-",
+    out.push_back({laws.path(law, q.name), q.width, element::unit_along(q.unit, angle), "-",
                    std::string(q.doc)});
 }
 
@@ -94,7 +94,7 @@ void declare(const System& s, const ElementList& list, Declaration& out) {
     const BodyData* body = moving_body(s, port);
     const auto first = laws.unknowns.begin() + n * static_cast<std::ptrdiff_t>(k);
     out.states.push_back({"force " + laws.names[k],
-                          "forces/" + laws.names[k],
+                          laws.path(k, ""),
                           list.z0 + n * static_cast<Index>(k),
                           body ? static_cast<int>(body - s.bodies.data()) : -1,
                           {first, first + n}});

@@ -33,6 +33,20 @@ void see_motion(const Regime& s, const Workspace<S>& ws, const PortData& port, S
            : row.gradient.cwiseProduct(joint_velocity<S>(s.joints[port.joint], ws.bodies)).sum();
 }
 
+/// Several motions, their rates, and the gradients of the motions.
+template <class S>
+void see_motions(const Regime& s, const Workspace<S>& ws, const PortData& port, S* x, S* v,
+                 joint::Vec12<S>* rows) {
+  for (const int motion : port.motions) {
+    const joint::Row<S> row = motion_row<S>(s, ws, motion);
+    const JointData& j = s.joints[s.motions[motion].joint];
+    *rows = row.gradient;
+    *x++ = row.value;
+    *v++ = rows->cwiseProduct(joint_velocity<S>(j, ws.bodies)).sum();
+    ++rows;
+  }
+}
+
 /// Rows W of the relative velocities (d', omega) = W (v_A, w_A, v_B, w_B) between two markers,
 /// along the axes of A's.
 template <class S>
@@ -129,6 +143,9 @@ void gather(const Regime& s, const ElementList& list, const Workspace<S>& ws, co
       std::copy(velocity.data(), velocity.data() + 6, v);
     } else if (shape.port == element::Port::points) {
       see_points<S>(ws, port, x, v);
+    } else if (shape.port == element::Port::along_coordinates) {
+      see_motions<S>(s, ws, port, x, v, rows);
+      rows += shape.width;
     } else if (shape.in_water()) {
       element::write(ws.bodies[port.body], in);
     } else if (shape.port == element::Port::between) {
@@ -159,6 +176,12 @@ void add_load(const Regime& s, const element::Shape& shape, const PortData& port
     for (std::size_t i = 0; i < port.points.size(); ++i)
       if (const int body = port.points[i].body; body >= 0)
         ws.loads[body] += load_at<S>(ws.bodies[body], port.points[i], load + 3 * i);
+    return;
+  }
+  if (shape.port == element::Port::along_coordinates) {
+    for (std::size_t i = 0; i < port.motions.size(); ++i)
+      add_to_bodies<S>(s.joints[s.motions[port.motions[i]].joint],
+                       joint::Vec12<S>(load[i] * rows[i]), ws.loads);
     return;
   }
   joint::Vec12<S> sum = load[0] * rows[0];

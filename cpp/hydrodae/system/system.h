@@ -124,8 +124,8 @@ struct CouplerData : Row {
   bool hidden = false;         ///< holds an attachment; not reported
 };
 
-/// Where a law is joined to the bodies: along a motion, on a body, or between the markers of a
-/// (hidden) joint.
+/// Where a law is joined to the bodies: along a motion or several, on a body, or between the
+/// markers of a (hidden) joint.
 struct PortData {
   std::string component;    ///< under which the results list its loads
   int motion = -1;          ///< in System::motions
@@ -135,6 +135,8 @@ struct PortData {
   int followed = -1;        ///< in System::rotations, of what it sees as a vector; -1: nothing
   Vector4 turn{1, 0, 0, 0}; ///< the law's reference pose over that of the body, a quaternion
   std::vector<joint::Marker> points; ///< of Port::points
+  std::vector<int> motions;          ///< of Port::along_coordinates, in System::motions
+  std::vector<int> bodies;           ///< of these motions, each once; -1: the ground
 
   /// A row of the joint that loads body B by lambda `on_b`: force and moment at B's marker, axes of
   /// marker A.
@@ -304,6 +306,8 @@ void for_each_body(const System& s, const PortData& port, Visitor&& visit) {
   }
   for (const joint::Marker& point : port.points)
     visit(point.body);
+  for (const int body : port.bodies)
+    visit(body);
 }
 
 /// Is a point of Port::points the first of those on its body?

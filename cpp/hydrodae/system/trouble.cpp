@@ -28,9 +28,10 @@ std::string unknown_load(const Regime& s, const Workspace<double>& ws) {
         continue;
       const bool nowhere =
           element::is_along(laws.shape.port) && *in == 0.0 && ws.elements[i].rows[law].isZero(0.0);
-      const std::string why = nowhere
-                                  ? "its points are at one place, where its force has no direction"
-                                  : line::trouble(laws.type, {in, n_in});
+      std::string why = nowhere ? "its points are at one place, where its force has no direction"
+                                : line::trouble(laws.type, {in, n_in});
+      if (why.empty())
+        why = laws.trouble(law, in);
       return std::string(laws.type) + " " + in_quotes(laws.names[law]) + ": " +
              (why.empty() ? "its load is no number" : why);
     }

@@ -32,11 +32,17 @@ OF_UNITS = (
     "marker",
     "force",
     "morison",
+    "chamber",
+    "piston",
+    "outlet",
     "gauge",
     "controller",
 )
 #: Keys that name entries of these tables, or channels of theirs.
-REFERENCES = ("name", "hydro", "body", "body_a", "body_b", "bodies", "joint", "joint_b", "marker")
+REFERENCES = (
+    *("name", "hydro", "body", "body_a", "body_b", "bodies", "joint", "joint_b", "marker"),
+    *("mode", "chamber", "to"),
+)
 CHANNELS = ("inputs", "outputs")
 #: Keys that are places in the world.
 POINTS = ("point", "point_a", "point_b", "points")

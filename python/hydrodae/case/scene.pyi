@@ -76,6 +76,11 @@ _MorisonSurface = Literal[
     "mean",
     "instantaneous",
 ]
+_ValveDirection = Literal[
+    "out",
+    "in",
+    "both",
+]
 _TcpProtocol = Literal[
     "hydrodae",
     "hotint",
@@ -2415,6 +2420,440 @@ class ForceTypes(TypedList):
             A key or a value is wrong.
         """
 
+class OutletTypes(TypedList):
+    """What lets air out of a chamber and in: an orifice, a plug, a turbine."""
+
+    def orifice(
+        self,
+        name: str,
+        *,
+        chamber: str,
+        coefficient: float,
+        area: float,
+        to: str = ...,
+        laminar_pressure: float = ...,
+        opening: float = ...,
+    ) -> str:
+        """Add `[[outlet]]` with the type "orifice".
+
+        An orifice: the flow goes with the root of the drop of pressure, until it chokes.
+
+        Parameters
+        ----------
+        name : text
+            Name of the outlet in the results.
+        chamber : text
+            Chamber that it opens.
+        to : text, optional
+            Chamber to which it leads; default: the atmosphere.
+        coefficient : number
+            Discharge coefficient C. Allowed: > 0, <= 1.
+        area : number, m2
+            Area A of the hole. Allowed: > 0.
+        laminar_pressure : number, Pa, default 1
+            Drop of pressure p_l below which the flow is linear: it removes the endless slope of
+            a root at zero. A larger one makes runs cheaper. Allowed: > 0.
+        opening : number, default 1
+            Part of the area that is open at the start. A controller may write it. Allowed: 0 to
+            1.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def porous_plug(
+        self,
+        name: str,
+        *,
+        chamber: str,
+        conductance: float,
+        to: str = ...,
+    ) -> str:
+        """Add `[[outlet]]` with the type "porous_plug".
+
+        A porous plug: the mass flow is proportional to the drop of pressure.
+
+        Parameters
+        ----------
+        name : text
+            Name of the outlet in the results.
+        chamber : text
+            Chamber that it opens.
+        to : text, optional
+            Chamber to which it leads; default: the atmosphere.
+        conductance : number, kg/(s Pa)
+            Mass flow k for each pascal of the drop. Allowed: > 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def valve(
+        self,
+        name: str,
+        *,
+        chamber: str,
+        coefficient: float,
+        area: float,
+        to: str = ...,
+        laminar_pressure: float = ...,
+        opens_at: float = ...,
+        shuts_at: float = ...,
+        direction: _ValveDirection = ...,
+    ) -> str:
+        """Add `[[outlet]]` with the type "valve".
+
+        A check, relief or bypass valve: the drop of pressure opens it, and shuts it below.
+
+        Parameters
+        ----------
+        name : text
+            Name of the outlet in the results.
+        chamber : text
+            Chamber that it opens.
+        to : text, optional
+            Chamber to which it leads; default: the atmosphere.
+        coefficient : number
+            Discharge coefficient C. Allowed: > 0, <= 1.
+        area : number, m2
+            Area A of the hole. Allowed: > 0.
+        laminar_pressure : number, Pa, default 1
+            Drop of pressure p_l below which the flow is linear: it removes the endless slope of
+            a root at zero. A larger one makes runs cheaper. Allowed: > 0.
+        opens_at : number, Pa, default 0
+            Drop of pressure at which it opens. Allowed: >= 0.
+        shuts_at : number, Pa, default 0
+            Drop of pressure at which it shuts. Allowed: >= 0.
+        direction : text, default "out"
+            Which way it lets the air: out of its chamber, in, or both. Allowed: out, in, both.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def wells(
+        self,
+        name: str,
+        *,
+        chamber: str,
+        diameter: float,
+        speed: float,
+        flow_slope: float,
+        to: str = ...,
+        inertia: float = ...,
+        windage: float = ...,
+        torque: float = ...,
+        torque_exponent: float = ...,
+        torque_at: _Numbers = ...,
+        torque_load: _Numbers = ...,
+        efficiency_at: _Numbers = ...,
+        efficiency: _Numbers = ...,
+        generator_efficiency: float = ...,
+        stall: float = ...,
+        stall_slope: float = ...,
+    ) -> str:
+        """Add `[[outlet]]` with the type "wells".
+
+        A Wells turbine: its flow is proportional to the drop of pressure, until it stalls.
+
+        Parameters
+        ----------
+        name : text
+            Name of the outlet in the results.
+        chamber : text
+            Chamber that it opens.
+        to : text, optional
+            Chamber to which it leads; default: the atmosphere.
+        diameter : number, m
+            Diameter D of the rotor. Allowed: > 0.
+        speed : number, rad/s
+            Speed W of rotation: it stays, or with `inertia` begins so. A controller may write a
+            speed that stays. Allowed: > 0.
+        inertia : number, kg m2, optional
+            Moment of inertia I of the rotor with the generator; with it the speed is a state.
+            Allowed: > 0.
+        windage : number, N m s2/rad2, default 0
+            Torque a_w W^2 that friction in the air takes. Allowed: >= 0.
+        torque : number, N m (s/rad)^b, default 0
+            Coefficient a of the generator's torque a W^b. Allowed: >= 0.
+        torque_exponent : number, default 2
+            Its exponent b. Allowed: 0 to 10.
+        torque_at : list of numbers, rad/s, optional
+            Speeds at which the torque of the generator is given instead. Allowed: >= 0.
+        torque_load : list of numbers, N m, optional
+            That torque at these speeds. Allowed: >= 0.
+        efficiency_at : list of numbers, optional
+            Dimensionless pressures |Psi| at which the efficiency is given, from 0 on. Allowed:
+            >= 0.
+        efficiency : list of numbers, optional
+            Power at the shaft over p m / rho_in at these; negative where the shaft drives the
+            air. Without it the shaft has no torque. Allowed: <= 1.
+        generator_efficiency : number, default 1
+            Electric power over that at the shaft. Allowed: 0 to 1.
+        flow_slope : number
+            K of Phi = K Psi: flow over pressure, both dimensionless. Allowed: > 0.
+        stall : number, optional
+            Dimensionless pressure Psi_s at which it stalls; default: it never does. Allowed: >
+            0.
+        stall_slope : number, optional
+            K_s, the slope of Phi beyond. Allowed: >= 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def impulse(
+        self,
+        name: str,
+        *,
+        chamber: str,
+        diameter: float,
+        speed: float,
+        coefficient: float,
+        exponent: float,
+        to: str = ...,
+        inertia: float = ...,
+        windage: float = ...,
+        torque: float = ...,
+        torque_exponent: float = ...,
+        torque_at: _Numbers = ...,
+        torque_load: _Numbers = ...,
+        efficiency_at: _Numbers = ...,
+        efficiency: _Numbers = ...,
+        generator_efficiency: float = ...,
+        laminar: float = ...,
+    ) -> str:
+        """Add `[[outlet]]` with the type "impulse".
+
+        An axial impulse turbine: its flow is a power of the drop of pressure.
+
+        Parameters
+        ----------
+        name : text
+            Name of the outlet in the results.
+        chamber : text
+            Chamber that it opens.
+        to : text, optional
+            Chamber to which it leads; default: the atmosphere.
+        diameter : number, m
+            Diameter D of the rotor. Allowed: > 0.
+        speed : number, rad/s
+            Speed W of rotation: it stays, or with `inertia` begins so. A controller may write a
+            speed that stays. Allowed: > 0.
+        inertia : number, kg m2, optional
+            Moment of inertia I of the rotor with the generator; with it the speed is a state.
+            Allowed: > 0.
+        windage : number, N m s2/rad2, default 0
+            Torque a_w W^2 that friction in the air takes. Allowed: >= 0.
+        torque : number, N m (s/rad)^b, default 0
+            Coefficient a of the generator's torque a W^b. Allowed: >= 0.
+        torque_exponent : number, default 2
+            Its exponent b. Allowed: 0 to 10.
+        torque_at : list of numbers, rad/s, optional
+            Speeds at which the torque of the generator is given instead. Allowed: >= 0.
+        torque_load : list of numbers, N m, optional
+            That torque at these speeds. Allowed: >= 0.
+        efficiency_at : list of numbers, optional
+            Dimensionless pressures |Psi| at which the efficiency is given, from 0 on. Allowed:
+            >= 0.
+        efficiency : list of numbers, optional
+            Power at the shaft over p m / rho_in at these; negative where the shaft drives the
+            air. Without it the shaft has no torque. Allowed: <= 1.
+        generator_efficiency : number, default 1
+            Electric power over that at the shaft. Allowed: 0 to 1.
+        coefficient : number
+            c of Phi = c |Psi|^e. Allowed: > 0.
+        exponent : number
+            e of Phi = c |Psi|^e. Allowed: > 0, <= 1.
+        laminar : number, default 0.0001
+            Dimensionless pressure Psi_l below which the flow is linear: it removes the endless
+            slope at zero. Allowed: > 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def biradial(
+        self,
+        name: str,
+        *,
+        chamber: str,
+        diameter: float,
+        speed: float,
+        to: str = ...,
+        inertia: float = ...,
+        windage: float = ...,
+        torque: float = ...,
+        torque_exponent: float = ...,
+        torque_at: _Numbers = ...,
+        torque_load: _Numbers = ...,
+        efficiency_at: _Numbers = ...,
+        efficiency: _Numbers = ...,
+        generator_efficiency: float = ...,
+        coefficient: float = ...,
+        exponent: float = ...,
+        laminar: float = ...,
+    ) -> str:
+        """Add `[[outlet]]` with the type "biradial".
+
+        A biradial turbine: its flow goes with the power 0.6 of the drop of pressure.
+
+        Parameters
+        ----------
+        name : text
+            Name of the outlet in the results.
+        chamber : text
+            Chamber that it opens.
+        to : text, optional
+            Chamber to which it leads; default: the atmosphere.
+        diameter : number, m
+            Diameter D of the rotor. Allowed: > 0.
+        speed : number, rad/s
+            Speed W of rotation: it stays, or with `inertia` begins so. A controller may write a
+            speed that stays. Allowed: > 0.
+        inertia : number, kg m2, optional
+            Moment of inertia I of the rotor with the generator; with it the speed is a state.
+            Allowed: > 0.
+        windage : number, N m s2/rad2, default 0
+            Torque a_w W^2 that friction in the air takes. Allowed: >= 0.
+        torque : number, N m (s/rad)^b, default 0
+            Coefficient a of the generator's torque a W^b. Allowed: >= 0.
+        torque_exponent : number, default 2
+            Its exponent b. Allowed: 0 to 10.
+        torque_at : list of numbers, rad/s, optional
+            Speeds at which the torque of the generator is given instead. Allowed: >= 0.
+        torque_load : list of numbers, N m, optional
+            That torque at these speeds. Allowed: >= 0.
+        efficiency_at : list of numbers, optional
+            Dimensionless pressures |Psi| at which the efficiency is given, from 0 on. Allowed:
+            >= 0.
+        efficiency : list of numbers, optional
+            Power at the shaft over p m / rho_in at these; negative where the shaft drives the
+            air. Without it the shaft has no torque. Allowed: <= 1.
+        generator_efficiency : number, default 1
+            Electric power over that at the shaft. Allowed: 0 to 1.
+        coefficient : number, default 0.195
+            c of Phi = c |Psi|^e. Allowed: > 0.
+        exponent : number, default 0.6
+            e of Phi = c |Psi|^e. Allowed: > 0, <= 1.
+        laminar : number, default 0.0001
+            Dimensionless pressure Psi_l below which the flow is linear: it removes the endless
+            slope at zero. Allowed: > 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def turbine(
+        self,
+        name: str,
+        *,
+        chamber: str,
+        diameter: float,
+        speed: float,
+        flow_at: _Numbers,
+        flow: _Numbers,
+        to: str = ...,
+        inertia: float = ...,
+        windage: float = ...,
+        torque: float = ...,
+        torque_exponent: float = ...,
+        torque_at: _Numbers = ...,
+        torque_load: _Numbers = ...,
+        efficiency_at: _Numbers = ...,
+        efficiency: _Numbers = ...,
+        generator_efficiency: float = ...,
+    ) -> str:
+        """Add `[[outlet]]` with the type "turbine".
+
+        A turbine by measured points: dimensionless flow over dimensionless pressure.
+
+        Parameters
+        ----------
+        name : text
+            Name of the outlet in the results.
+        chamber : text
+            Chamber that it opens.
+        to : text, optional
+            Chamber to which it leads; default: the atmosphere.
+        diameter : number, m
+            Diameter D of the rotor. Allowed: > 0.
+        speed : number, rad/s
+            Speed W of rotation: it stays, or with `inertia` begins so. A controller may write a
+            speed that stays. Allowed: > 0.
+        inertia : number, kg m2, optional
+            Moment of inertia I of the rotor with the generator; with it the speed is a state.
+            Allowed: > 0.
+        windage : number, N m s2/rad2, default 0
+            Torque a_w W^2 that friction in the air takes. Allowed: >= 0.
+        torque : number, N m (s/rad)^b, default 0
+            Coefficient a of the generator's torque a W^b. Allowed: >= 0.
+        torque_exponent : number, default 2
+            Its exponent b. Allowed: 0 to 10.
+        torque_at : list of numbers, rad/s, optional
+            Speeds at which the torque of the generator is given instead. Allowed: >= 0.
+        torque_load : list of numbers, N m, optional
+            That torque at these speeds. Allowed: >= 0.
+        efficiency_at : list of numbers, optional
+            Dimensionless pressures |Psi| at which the efficiency is given, from 0 on. Allowed:
+            >= 0.
+        efficiency : list of numbers, optional
+            Power at the shaft over p m / rho_in at these; negative where the shaft drives the
+            air. Without it the shaft has no torque. Allowed: <= 1.
+        generator_efficiency : number, default 1
+            Electric power over that at the shaft. Allowed: 0 to 1.
+        flow_at : list of numbers
+            Dimensionless pressures |Psi|, from 0 on. Allowed: >= 0.
+        flow : list of numbers
+            Dimensionless flow |Phi| at these, from 0 on. Allowed: >= 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+
 class ControllerTypes(TypedList):
     """A sampled controller: it reads channels, and holds inputs between its instants."""
 
@@ -2968,10 +3407,12 @@ class Scene(SceneBase):
         gravity: float = ...,
         water_density: float = ...,
         water_depth: float = ...,
+        air_pressure: float = ...,
+        air_density: float = ...,
     ) -> None:
         """Add `[environment]`.
 
-        Gravity and water, where no hydrodynamic database states them.
+        Gravity, the water where no hydrodynamic database states it, and the air.
 
         Parameters
         ----------
@@ -2983,6 +3424,11 @@ class Scene(SceneBase):
         water_depth : number, m, optional
             Depth of the water, where there is no hydrodynamic database; infinite by default.
             Allowed: > 0.
+        air_pressure : number, Pa, optional
+            Pressure of the atmosphere around chambers, absolute; default: 101 325. Allowed: >
+            0.
+        air_density : number, kg/m3, optional
+            Density of the air around chambers; default: 1.225. Allowed: > 0.
 
         Raises
         ------
@@ -3403,6 +3849,90 @@ class Scene(SceneBase):
         CaseError
             A key or a value is wrong.
         """
+    def chamber(
+        self,
+        name: str,
+        *,
+        volume: float,
+        exponent: float = ...,
+        pressure: float = ...,
+    ) -> str:
+        """Add `[[chamber]]`.
+
+        Air between pistons and outlets: an air chamber, or a tank. Its pressure loads the
+        pistons.
+
+        Parameters
+        ----------
+        name : text
+            Name of the chamber in the results.
+        volume : number, m3
+            Volume V0 of the air where all its pistons are at zero. At a scale of 1 : e it is
+            that of the device over e^2, as the atmosphere has no scale. Allowed: > 0.
+        exponent : number, default 1.4
+            Exponent n of the air: 1.4 isentropic, 1 isothermal, between them polytropic.
+            Allowed: 1 to 1.4.
+        pressure : number, Pa, default 0
+            Gauge pressure at the start.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def piston(
+        self,
+        name: str,
+        *,
+        chamber: str,
+        area: float,
+        joint: str = ...,
+        coordinate: str = ...,
+        mode: str = ...,
+        roof: float = ...,
+    ) -> str:
+        """Add `[[piston]]`.
+
+        A coordinate that presses the air of a chamber: of a joint, or the amplitude of a mode.
+
+        Parameters
+        ----------
+        name : text
+            Name of the piston.
+        chamber : text
+            Chamber whose air it presses.
+        joint : text, optional
+            Joint whose coordinate it is.
+        coordinate : text, optional
+            Which coordinate of the joint: displacement, angle, angle_2, ...; default: its only
+            one.
+        mode : text, optional
+            Mode whose amplitude it is.
+        area : number, m2 or m3/rad
+            Area S by which it takes volume from the chamber; on a rotation times its lever. Of
+            a mode the integral of its vertical shape over the water. Allowed: > 0.
+        roof : number, m, optional
+            Coordinate at which the water is at the roof: the run ends there. Default: where no
+            air is left.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    @property
+    def outlet(self) -> OutletTypes:
+        """What lets air out of a chamber and in: an orifice, a plug, a turbine."""
     def gauge(
         self,
         name: str,
