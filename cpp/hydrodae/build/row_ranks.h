@@ -15,10 +15,10 @@ struct Ranking {
   std::size_t rank(double limit) const;
 };
 
-/// The rankings of all mechanisms at a pose, by their numbers in `constraints`. Rows of the spanning
-/// tree come before those that close loops. What the joints of a loop hold across its plane is then
-/// left out at the closing joint. A mixture of rows that is independent at the start may become
-/// dependent as the bodies turn.
+/// The rankings of all mechanisms at a pose, by their numbers in `constraints`. Rows of the
+/// spanning tree come before those that close loops. What the joints of a loop hold across its
+/// plane is then left out at the closing joint. A mixture of rows that is independent at the start
+/// may become dependent as the bodies turn.
 std::vector<Ranking> rank_at(const system::System& system, Constraints& constraints,
                              const Mask& mask, const VectorX& y);
 
