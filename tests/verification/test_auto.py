@@ -99,7 +99,7 @@ def test_a_step_that_loses_energy_is_made_by_another_method(tmp_path: Path) -> N
     assert results.statistics["method_in_use"] == "radau"
     line = next(row for row in results.summary().splitlines() if "method auto" in row)
     assert f"explicit_rk (nothing is stiff), radau from t = {since:.9g} s because" in line
-    assert "because a step of explicit_rk was proved wrong: the energy balance" in line
+    assert "because a step of explicit_rk was refused: the energy balance" in line
 
 
 HANGING = """

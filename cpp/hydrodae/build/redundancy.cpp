@@ -405,12 +405,12 @@ void judge_doubtful_rows(system::System& s, const system::Regime& rows,
 /// Rows that gave way though they follow from others up to the tolerance alone: one line a joint.
 std::vector<std::string> loose_rows(const Constraints& constraints,
                                     const std::vector<Selection>& held) {
-  std::set<std::string> told;
+  std::set<std::string> named;
   std::vector<std::string> out;
   for (const Selection& one : held)
     for (const RankedRow& row : one.dropped) {
       const std::string key = constraints.key(row.row);
-      if (row.pivot > dependent && told.insert(key).second)
+      if (row.pivot > dependent && named.insert(key).second)
         out.push_back(
             key.substr(0, key.find('.')) + " " + in_quotes(key.substr(key.find('.') + 1)) +
             " is out of line with " + partners(constraints, *one.transposed, one.kept, row.row) +

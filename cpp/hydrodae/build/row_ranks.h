@@ -16,9 +16,9 @@ struct Ranking {
 };
 
 /// The rankings of all mechanisms at a pose, by their numbers in `constraints`. Rows of the
-/// spanning tree come before those that close loops: of a loop in a plane, what its joints hold
-/// across the plane is then left out at the closing joint, whereas a mixture that is independent at
-/// the start may become dependent as the bodies turn.
+/// spanning tree come before those that close loops. What the joints of a loop hold across its
+/// plane is then left out at the closing joint. A mixture of rows that is independent at the start
+/// may become dependent as the bodies turn.
 std::vector<Ranking> rank_at(const system::System& system, Constraints& constraints,
                              const Mask& mask, const VectorX& y);
 

@@ -14,7 +14,7 @@ namespace hydrodae::run {
 namespace {
 
 constexpr double usual = 1e-2;  ///< part of the energy exchanged
-constexpr double little = 1e-2; ///< of what counts as too little where a step cannot be made again
+constexpr double little = 1e-2; ///< of `energy_of_errors`: the errors of one step, not of a hundred
 
 /// Part of the potential energy m g L of a body that rounding may lose: 2e-16 in each of 5000
 /// steps.

@@ -24,7 +24,7 @@ std::string in_words(const MethodChange& change) {
   case MethodChange::Cause::stop:
     return change.method + " gave up: " + change.reason;
   case MethodChange::Cause::guard:
-    return "a step of " + change.method + " was proved wrong: " + change.reason;
+    return "a step of " + change.method + " was refused: " + change.reason;
   case MethodChange::Cause::cost:
     break;
   }

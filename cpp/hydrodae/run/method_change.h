@@ -12,7 +12,7 @@ struct MethodChange {
   enum class Cause {
     cost,  ///< the next method has less work
     stop,  ///< the method can make no step
-    guard, ///< a guard has proved a step of the method wrong
+    guard, ///< a guard has refused a step of the method
   };
   Cause cause = Cause::cost;
   std::string method; ///< the one that is left

@@ -12,10 +12,10 @@ namespace hydrodae::run {
 
 struct Step;
 
-/// Decides whether a step was at or next to a singular pose of a closed loop: there the constraint
+/// Decides whether a step was at or next to a singular pose of a closed loop. There the constraint
 /// rows of a mechanism are a hundred times nearer to dependence on each other than in its best pose
-/// seen, as the masses feel it, and so they are by geometry alone: light bars between heavy ones
-/// look dependent in any pose. Rows that always follow from others are thus no singular pose.
+/// seen, as the masses feel it. By geometry alone they are near it, too: light bars between heavy
+/// ones look dependent in any pose. Rows that always follow from others are thus no singular pose.
 /// Scenes without loops have nothing to watch.
 class PoseWatch {
 public:

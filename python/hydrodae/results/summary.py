@@ -88,7 +88,7 @@ def _errors(results: Recording) -> list[str]:
     known, lines = results.statistics, []
     if known.get("at_rest"):
         return []
-    if known.get("estimated_error_of"):
+    if known.keys() >= {"estimated_error", "estimated_error_of", "estimated_error_time"}:
         lines.append(
             f"estimated error {float(known['estimated_error']):.1g} of the motion "
             f"({known['estimated_error_of']}, t = {float(known['estimated_error_time']):.4g} s), "

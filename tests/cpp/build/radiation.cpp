@@ -193,6 +193,24 @@ TEST_CASE("coupled floats are judged by the eigenvalues of the sum of their resi
   }
 }
 
+TEST_CASE("mass and added mass of coupled floats must be positive definite together") {
+  const Index n = 30; // 1500 kg each, m of each to the next: 1500 + 2 m cos(k pi / (n + 1))
+  const MatrixX B = 30.0 * MatrixX::Identity(n, n);
+  const double limit = 750.0 / std::cos(pi / static_cast<double>(n + 1));
+  for (const double part : {0.999, 1.001}) {
+    CAPTURE(part);
+    model::Scene scene = row_of_floats(B, B);
+    auto database = std::make_shared<hydro::Database>(*scene.database);
+    MatrixX& added = database->fits[0].added_mass_inf;
+    added.diagonal(1).setConstant(part * limit);
+    added.diagonal(-1).setConstant(part * limit);
+    scene.database = database;
+    const std::string message = message_of([&] { build::build(scene); });
+    CHECK(contains(message, "positive definite together") == (part > 1.0));
+    CHECK((message == "no error") == (part < 1.0));
+  }
+}
+
 TEST_CASE("a memory with a growing pole is refused") {
   model::Scene scene = case_of("sphere/decay.toml", {});
   auto database = std::make_shared<hydro::Database>(*scene.database);

@@ -90,7 +90,7 @@ TEST_CASE("a step that a guard refuses is no failure of the method itself") {
   stop(choice, 1.5, "the energy balance is off", "", "", MethodChange::Cause::guard);
   CHECK(in_words(choice) ==
         "auto: explicit_rk (nothing is stiff), radau from t = 1.5 s because a step of explicit_rk "
-        "was proved wrong: the energy balance is off");
+        "was refused: the energy balance is off");
 }
 
 TEST_CASE("where no method is left, the error tells of all") {

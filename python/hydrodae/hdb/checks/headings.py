@@ -33,8 +33,11 @@ def heading_findings(database: HydroDatabase, band: Band) -> list[Finding]:
         text = f"one heading only, {np.degrees(heading[0]):.4g} deg"
         return [Finding("info", "headings", text)]
     order = np.argsort(heading)
-    rule = Headings(heading[order])
     step = np.diff(heading[order])
+    if not np.all(step > 0.0):
+        twice = np.degrees(heading[order][int(step.argmin())])
+        return [Finding("error", "headings", f"{twice:.4g} deg stands more than once")]
+    rule = Headings(heading[order])
     widest = int(step.argmax())
     first, second = np.degrees(heading[order][[widest, widest + 1]])
     between = f"none between {first:.4g} and {second:.4g} deg: forces of waves between them"

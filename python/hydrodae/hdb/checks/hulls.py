@@ -62,7 +62,7 @@ def _impossible(statics: Hydrostatics, depth: float) -> list[tuple[str, str]]:
         text = f"its waterplane area is negative, {statics.waterplane_area:.4g} m2"
         found.append(("error", text))
     least = float(statics.waterplane_moments[2:4].min())
-    if least < -ROUNDING * size**4:
+    if least < -ROUNDING * (size * size) * (size * size):  # size**4 raises beyond 1e77 m
         text = f"a second moment of its waterplane is negative, {least:.4g} m4"
         found.append(("warning", text))
     return found
