@@ -18,7 +18,7 @@ namespace {
 // irregular frequencies (F3OF: 1.3 %), cut kernels ripple (sphere: 0.15 %).
 constexpr double allowed_fit = 1e-3;
 constexpr double allowed_table = 0.05;
-constexpr double own = 0.05;        ///< the same for one coordinate, of its own largest
+constexpr double of_itself = 0.05;  ///< the same for one coordinate, of its own largest
 constexpr double negligible = 1e-4; ///< of the largest: what belongs to a coordinate below is noise
 
 /// sqrt of mass and added mass of each coordinate on itself: damping over mass is a rate that
@@ -76,7 +76,7 @@ void judge(const system::System& s, const std::vector<Damping>& all, const Vecto
   const double scale = largest.maxCoeff();
   if (!(scale > 0.0))
     return; // no radiation at all
-  double at = 0.0, part = own;
+  double at = 0.0, part = of_itself;
   Index which = -1;
   for (const Damping& d : all)
     for (Index k = 0; k < d.size(); ++k) {
