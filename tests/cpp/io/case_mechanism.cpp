@@ -131,7 +131,7 @@ const std::vector<BadInput> bad_inputs = {
      "title, missing, environment, hydro, pose_table, sea, wave, body, mode, attachment, joint, "
      "constraint, "
      "marker, force, morison, "
-     "gauge, "
+     "chamber, piston, outlet, gauge, "
      "controller, solver, "
      "output)"},
     {"point_b = [0.0, 0.0, -2.0]\nlength = 1.5\n", "",

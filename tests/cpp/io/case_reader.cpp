@@ -76,12 +76,12 @@ TEST_CASE("a wrong key is told with its place and the nearest name") {
        "(valid: name, type, joint, coordinate, damping, stiffness, neutral, delay)"},
       {"gravity = 9.81", "  zzz = 9.81",
        "case.toml:4:3: unknown key 'zzz' in [environment]; valid: gravity, water_density, "
-       "water_depth"},
+       "water_depth, air_pressure, air_density"},
       {"[solver]", "[solvr]",
        "case.toml:34:2: unknown key 'solvr' in the case; did you mean 'solver'? (valid: title, "
        "missing, "
        "environment, hydro, pose_table, sea, wave, body, mode, attachment, joint, constraint, "
-       "marker, force, morison, gauge, "
+       "marker, force, morison, chamber, piston, outlet, gauge, "
        "controller, solver, "
        "output)"},
       {"angle_deg", "angle_dg",
