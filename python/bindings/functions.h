@@ -50,19 +50,29 @@ public:
   }
 
   /// What `state()` returns, for `restore(values)`, where the object has both.
-  void remember(Archive& a) override {
-    std::vector<double> values;
+  std::string state() override {
+    State out;
     guarded(0.0, [&] {
-      const bool has = py::hasattr(call_, "state") && py::hasattr(call_, "restore");
-      if (has && a.saves())
-        values = state_of(call_.attr("state")());
-      a(values);
-      if (has && !a.saves())
-        call_.attr("restore")(values);
+      if (has_state())
+        out.values = state_of(call_.attr("state")());
+    });
+    return to_bytes(out);
+  }
+  void set(const std::string& bytes) override {
+    guarded(0.0, [&] {
+      const auto from = from_bytes<State>(bytes);
+      if (has_state())
+        call_.attr("restore")(from.values);
     });
   }
 
 private:
+  struct State {
+    std::vector<double> values;
+  };
+
+  bool has_state() const { return py::hasattr(call_, "state") && py::hasattr(call_, "restore"); }
+
   template <class Work> void guarded(double t, Work&& work) {
     const py::gil_scoped_acquire gil;
     try {

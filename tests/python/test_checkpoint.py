@@ -71,7 +71,7 @@ def test_a_killed_run_goes_on(case: Path, tmp_path: Path, method: str) -> None:
     killed, whole = tmp_path / "killed.h5", tmp_path / "whole.h5"
     kill_in_the_middle(case, killed, *how)
     with h5py.File(killed.with_suffix(".checkpoint.h5")) as file:
-        assert 0.0 < file["state/time"][0] < 3.0
+        assert 0.0 < float(file.attrs["time"]) < 3.0
         assert file.attrs["case_text"].startswith(CASE)
     main(["run", str(case), "-q", "-o", str(killed), *how, "--resume"])
     main(["run", str(case), "-q", "-o", str(whole), *how])
@@ -174,7 +174,7 @@ def test_refusals(case: Path, tmp_path: Path) -> None:
         hydrodae.run(case, output, resume=True, set={"solver.rtol": 1e-5})
     whole = checkpoint.read_bytes()
     with h5py.File(checkpoint, "r+") as file:
-        file["state/y"][0] += 1e-9
+        file["state"][100] ^= 1
     with pytest.raises(CaseError, match="it is damaged"):
         hydrodae.run(case, output, resume=True)
     checkpoint.write_bytes(whole)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import pickle
 import random
 from pathlib import Path
@@ -109,6 +110,37 @@ def test_going_on_equals_coming_back(name: str, method: str, repository: Path) -
         other.restore(pickle.loads(pickle.dumps(state)))
         assert follow(other, 25) == went_on
         assert other.state() == after
+
+
+def shipped() -> list[str]:
+    """Cases of the repository, by their path below cases/."""
+    folder = Path(__file__).resolve().parents[2] / "cases"
+    return sorted(str(file.relative_to(folder)) for file in folder.rglob("*.toml"))
+
+
+@pytest.mark.parametrize("name", shipped())
+def test_a_copy_of_a_state_goes_on_in_every_case(name: str, repository: Path) -> None:
+    """A copy from the middle of a run goes on in it, and in another run of the same case."""
+    file = repository / "cases" / name
+    text = file.read_text()
+    try:
+        case = hydrodae.Case.read(file)
+        if "body" not in text or "tcp" in text:
+            pytest.skip("no run of its own")
+        one, other = Simulation(case), Simulation(case)
+    except hydrodae.CaseError as error:
+        pytest.skip(str(error))  # its database is made first, or it is a part of others
+    for _ in range(20):
+        one.advance()
+    state = copy.copy(one.state())
+    went_on = follow(one, 10)
+    after = one.state()
+    other.advance()
+    other.restore(state)
+    assert follow(other, 10) == went_on
+    assert other.state() == after
+    one.restore(state)
+    assert follow(one, 10) == went_on
 
 
 @pytest.mark.parametrize("method", METHODS)

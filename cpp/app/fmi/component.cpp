@@ -16,8 +16,6 @@ using Sort = Variable::Kind;
 /// Communication points k h and t + h differ by rounding: nearer than so many steps is there.
 constexpr double nearness = 1e-9;
 
-constexpr const char* part = "fmu"; ///< of a saved state that is the instance's own
-
 std::string toml_number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.17g", value);
@@ -34,22 +32,6 @@ std::string toml_text(const std::string& value) {
     out += plain ? std::string(1, c) : code;
   }
   return out + "\"";
-}
-
-/// A text among the numbers of a state: its length, then its characters.
-void add_text(const std::string& text, std::vector<double>& out) {
-  out.push_back(static_cast<double>(text.size()));
-  for (const char c : text)
-    out.push_back(static_cast<unsigned char>(c));
-}
-
-/// @param at  moves behind it, at most to the end
-std::string take_text(const std::vector<double>& numbers, std::size_t& at) {
-  std::string out;
-  const double size = at < numbers.size() ? numbers[at++] : 0.0;
-  for (double k = 0.0; k < size && at < numbers.size(); ++k)
-    out += static_cast<char>(static_cast<unsigned char>(numbers[at++]));
-  return out;
 }
 
 } // namespace
@@ -216,46 +198,41 @@ void Component::finish() {
   phase_ = Phase::terminated;
 }
 
-run::State Component::save() {
-  run::State out = run_ ? run_->state() : run::State{};
-  std::vector<double>& own = out.memory[part];
-  own = {static_cast<double>(phase_), end_time_};
+Component::State Component::save() {
+  State out{phase_, end_time_, {}, {}, {}};
   for (const auto& [reference, value] : held_)
-    own.push_back(value);
+    out.held.push_back(value);
   for (const auto& [reference, text] : texts_)
-    add_text(text, own);
+    out.texts.push_back(text);
+  if (run_)
+    out.run = run_->state();
   return out;
 }
 
-void Component::load(const run::State& state) {
-  const auto found = state.memory.find(part);
-  if (found == state.memory.end() || found->second.size() < 2 + held_.size() + texts_.size())
+void Component::load(const State& state) {
+  if (state.held.size() != held_.size() || state.texts.size() != texts_.size())
     throw CaseError("the state is that of another FMU");
-  const double* own = found->second.data();
-  const auto phase = static_cast<Phase>(static_cast<int>(*own++));
-  const bool begun = phase != Phase::instantiated;
-  const double end_time = *own++;
-  bool same = run_ && end_time == end_time_;
+  bool same = run_ && state.end_time == end_time_;
+  auto saved = state.held.begin();
   for (auto& [reference, value] : held_) {
-    same = same && (variable(reference).kind == Sort::input || value == *own);
-    value = *own++;
+    same = same && (variable(reference).kind == Sort::input || value == *saved);
+    value = *saved++;
   }
-  std::size_t at = 2 + held_.size();
+  auto saved_text = state.texts.begin();
   for (auto& [reference, text] : texts_) {
-    const std::string saved = take_text(found->second, at);
-    same = same && saved == text;
-    text = saved;
+    same = same && *saved_text == text;
+    text = *saved_text++;
   }
-  if (!begun) {
+  if (!state.run) {
     run_.reset();
-    end_time_ = end_time;
-    phase_ = phase;
+    end_time_ = state.end_time;
+    phase_ = state.phase;
     return;
   }
   if (!same)
-    begin(end_time);
-  run_->restore(state);
-  phase_ = phase;
+    begin(state.end_time);
+  run_->restore(*state.run);
+  phase_ = state.phase;
 }
 
 } // namespace hydrodae::fmi

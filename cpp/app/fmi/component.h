@@ -60,8 +60,21 @@ public:
 
   /// All that the instance is now. What follows depends on it alone, bit for bit, in this instance
   /// or another one of the same FMU, in this process or another one. See run::Simulation::state.
-  run::State save();
-  void load(const run::State& state);
+  struct State {
+    Phase phase = Phase::instantiated;
+    double end_time = 0.0;
+    std::vector<double> held; ///< of the parameters and inputs, in their order
+    std::vector<std::string> texts;
+    std::optional<run::State> run;
+
+    /// As run::State.
+    std::string bytes() const { return run::sealed(to_bytes(*this)); }
+    static State from_bytes(const std::string& bytes) {
+      return hydrodae::from_bytes<State>(run::unsealed(bytes));
+    }
+  };
+  State save();
+  void load(const State& state);
 
 private:
   const Variable& variable(Reference reference) const;

@@ -41,14 +41,14 @@ public:
     static HeldStates held;
     return held;
   }
-  void* add(run::State&& state) {
-    auto own = std::make_unique<run::State>(std::move(state));
+  void* add(Component::State&& state) {
+    auto own = std::make_unique<Component::State>(std::move(state));
     void* const address = own.get();
     const std::lock_guard lock(mutex_);
     states_[address] = std::move(own);
     return address;
   }
-  run::State& find(void* address) {
+  Component::State& find(void* address) {
     const std::lock_guard lock(mutex_);
     const auto found = states_.find(address);
     if (found == states_.end())
@@ -63,11 +63,11 @@ public:
 
 private:
   std::mutex mutex_;
-  std::map<void*, std::unique_ptr<run::State>> states_;
+  std::map<void*, std::unique_ptr<Component::State>> states_;
 };
 
 inline Instance& instance_of(void* instance) { return *static_cast<Instance*>(instance); }
-inline run::State& state_of(void* state) { return HeldStates::all().find(state); }
+inline Component::State& state_of(void* state) { return HeldStates::all().find(state); }
 
 inline void require_place(const void* place) {
   if (!place)
@@ -214,7 +214,7 @@ template <class S> S read_state(void* instance, const void* bytes, std::size_t s
     require_place(bytes);
     require_place(state);
     const std::string text(static_cast<const char*>(bytes), size);
-    *state = HeldStates::all().add(run::State::from_bytes(text));
+    *state = HeldStates::all().add(Component::State::from_bytes(text));
   });
 }
 

@@ -27,39 +27,44 @@ const MoverError* Estimate::worst() const {
 }
 
 Comparison::Comparison(const system::Regime& first, bool in_turn)
-    : movers_(first), in_turn_(in_turn), motion_(movers_.n_groups()), apart_(movers_.size()) {}
+    : movers_(first), in_turn_(in_turn) {
+  state_.motion.resize(movers_.n_groups());
+  state_.apart.resize(movers_.size());
+}
 
 void Comparison::moved(const VectorX& y, const std::vector<double>& turns) {
   movers_.places(y, now_);
-  if (start_.size() == 0) {
-    start_ = now_;
-    turns0_ = turns;
+  if (state_.start.size() == 0) {
+    state_.start = now_;
+    state_.turns0 = turns;
   }
   for (std::size_t m = 0; m < movers_.size(); ++m)
-    motion_[movers_.group(m)].widen(movers_.apart(m, start_, now_));
-  movers_.widen(turns, turns0_, motion_);
+    state_.motion[movers_.group(m)].widen(movers_.apart(m, state_.start, now_));
+  movers_.widen(turns, state_.turns0, state_.motion);
 }
 
 void Comparison::first(double time, const VectorX& y, const std::function<bool()>& go_on) {
   std::unique_lock lock(mutex_);
-  if (second_ended_ && second_.empty())
+  if (state_.second_ended && state_.second.empty())
     return;
-  first_.emplace_back(time, VectorX());
-  movers_.places(y, first_.back().second);
+  state_.first.emplace_back(time, VectorX());
+  movers_.places(y, state_.first.back().second);
   compare();
-  const auto near = [&] { return in_turn_ || first_.size() < most_ahead || second_ended_; };
+  const auto near = [&] {
+    return in_turn_ || state_.first.size() < most_ahead || state_.second_ended;
+  };
   while (!changed_.wait_for(lock, patience, near) && go_on())
     ;
 }
 
 bool Comparison::second(const VectorX& places) {
   std::unique_lock lock(mutex_);
-  second_.push_back(places);
+  state_.second.push_back(places);
   compare();
   changed_.wait(lock, [&] {
-    return in_turn_ || second_.size() < most_ahead || first_ended_ || second_passes_;
+    return in_turn_ || state_.second.size() < most_ahead || first_ended_ || second_passes_;
   });
-  return !first_ended_ || !first_.empty();
+  return !first_ended_ || !state_.first.empty();
 }
 
 void Comparison::end_first() {
@@ -70,13 +75,13 @@ void Comparison::end_first() {
 
 void Comparison::end_second() {
   const std::lock_guard lock(mutex_);
-  second_ended_ = true;
+  state_.second_ended = true;
   changed_.notify_all();
 }
 
 bool Comparison::wait_for_second() {
   std::unique_lock lock(mutex_);
-  return changed_.wait_for(lock, patience, [&] { return second_ended_; });
+  return changed_.wait_for(lock, patience, [&] { return state_.second_ended; });
 }
 
 void Comparison::let_pass(bool second) {
@@ -85,45 +90,49 @@ void Comparison::let_pass(bool second) {
   changed_.notify_all();
 }
 
-void Comparison::remember(Archive& a) {
+Comparison::State Comparison::state() const {
   const std::lock_guard lock(mutex_);
-  a(first_, second_, second_ended_, start_, turns0_, motion_, span_, compared_, until_, time_,
-    apart_);
+  return state_;
+}
+
+void Comparison::set(State state) {
+  const std::lock_guard lock(mutex_);
+  state_ = std::move(state);
 }
 
 /// All samples that are there of both.
 void Comparison::compare() {
-  while (!first_.empty() && !second_.empty()) {
-    until_ = first_.front().first;
-    const bool begins = compared_++ % span_ == 0;
+  while (!state_.first.empty() && !state_.second.empty()) {
+    state_.until = state_.first.front().first;
+    const bool begins = state_.compared++ % state_.span == 0;
     if (begins)
-      time_.push_back(until_);
+      state_.time.push_back(state_.until);
     for (std::size_t m = 0; m < movers_.size(); ++m) {
-      const Apart apart = movers_.apart(m, first_.front().second, second_.front());
+      const Apart apart = movers_.apart(m, state_.first.front().second, state_.second.front());
       if (begins)
-        apart_[m].push_back(apart);
+        state_.apart[m].push_back(apart);
       else
-        apart_[m].back().widen(apart);
+        state_.apart[m].back().widen(apart);
     }
-    if (compared_ == most_spans * span_)
+    if (state_.compared == most_spans * state_.span)
       double_spans();
-    first_.pop_front();
-    second_.pop_front();
+    state_.first.pop_front();
+    state_.second.pop_front();
     changed_.notify_all();
   }
 }
 
 void Comparison::double_spans() {
-  span_ *= 2;
+  state_.span *= 2;
   for (std::size_t k = 0; k < most_spans / 2; ++k) {
-    time_[k] = time_[2 * k];
-    for (std::vector<Apart>& apart : apart_) {
+    state_.time[k] = state_.time[2 * k];
+    for (std::vector<Apart>& apart : state_.apart) {
       apart[k] = apart[2 * k];
       apart[k].widen(apart[2 * k + 1]);
     }
   }
-  time_.resize(most_spans / 2);
-  for (std::vector<Apart>& apart : apart_)
+  state_.time.resize(most_spans / 2);
+  for (std::vector<Apart>& apart : state_.apart)
     apart.resize(most_spans / 2);
 }
 
@@ -131,7 +140,7 @@ void Comparison::double_spans() {
 /// their own largest, but with no less than the tolerance of translations follows (MotionScale), or
 /// than counts as rest.
 std::vector<Apart> Comparison::measures() const {
-  std::vector<Apart> out = motion_;
+  std::vector<Apart> out = state_.motion;
   std::vector<double> rest(out.size(), 1e-300);
   for (std::size_t m = 0; m < movers_.size(); ++m)
     rest[movers_.group(m)] =
@@ -145,28 +154,28 @@ std::vector<Apart> Comparison::measures() const {
 Estimate Comparison::estimate(double divisor) const {
   const std::lock_guard lock(mutex_);
   Estimate out;
-  out.time = time_;
-  out.until = until_;
+  out.time = state_.time;
+  out.until = state_.until;
   const std::vector<Apart> measures = this->measures();
   for (std::size_t m = 0; m < movers_.size(); ++m) {
     MoverError error;
     error.name = movers_.name(m);
-    error.motion = motion_[movers_.group(m)].both();
+    error.motion = state_.motion[movers_.group(m)].both();
     const Apart& measure = measures[movers_.group(m)];
-    for (std::size_t k = 0; k < time_.size(); ++k) {
-      const Apart& apart = apart_[m][k];
+    for (std::size_t k = 0; k < state_.time.size(); ++k) {
+      const Apart& apart = state_.apart[m][k];
       const double part = std::max(apart.moved / measure.moved, apart.turned / measure.turned);
       if (part > reproducible)
-        error.parted = std::min(error.parted, time_[k]);
+        error.parted = std::min(error.parted, state_.time[k]);
       if (part / divisor > reproducible)
-        error.reproducible_until = std::min(error.reproducible_until, time_[k]);
+        error.reproducible_until = std::min(error.reproducible_until, state_.time[k]);
       // From there on errors are no longer small, and nothing is known of their ratio.
       const double by = std::isfinite(error.reproducible_until) ? 1.0 : divisor;
       error.error.push_back(apart.both() / by);
       error.part.push_back(part / by);
       if (error.part.back() > error.largest) {
         error.largest = error.part.back();
-        error.when = time_[k];
+        error.when = state_.time[k];
       }
     }
     out.movers.push_back(std::move(error));

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "hydrodae/accuracy/places.h"
-#include "hydrodae/core/archive.h"
 
 namespace hydrodae::accuracy {
 
@@ -77,7 +76,20 @@ public:
   /// While it is set, a second run that is ahead does not wait for the first, which waits for it.
   void let_pass(bool second);
 
-  void remember(Archive& a);
+  struct State {
+    std::deque<std::pair<double, VectorX>> first; ///< samples that wait for the other run
+    std::deque<VectorX> second;
+    bool second_ended = false;
+    VectorX start;
+    std::vector<double> turns0;            ///< at the start
+    std::vector<Apart> motion;             ///< by group
+    std::size_t span = 1, compared = 0;    ///< samples in a span, and in all
+    double until = 0.0;                    ///< time of the last sample compared [s]
+    std::vector<double> time;              ///< first sample of each span [s]
+    std::vector<std::vector<Apart>> apart; ///< by mover
+  };
+  State state() const;
+  void set(State state);
 
   /// Of all samples that both runs have given.
   Estimate estimate(double divisor) const;
@@ -91,16 +103,9 @@ private:
   const bool in_turn_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<std::pair<double, VectorX>> first_;
-  std::deque<VectorX> second_;
-  bool first_ended_ = false, second_ended_ = false, second_passes_ = false;
-  VectorX start_, now_;
-  std::vector<double> turns0_;            ///< at the start
-  std::vector<Apart> motion_;             ///< by group
-  std::size_t span_ = 1, compared_ = 0;   ///< samples in a span, and in all
-  double until_ = 0.0;                    ///< time of the last sample compared [s]
-  std::vector<double> time_;              ///< first sample of each span [s]
-  std::vector<std::vector<Apart>> apart_; ///< by mover
+  bool first_ended_ = false, second_passes_ = false;
+  State state_;
+  VectorX now_;
 };
 
 } // namespace hydrodae::accuracy

@@ -18,7 +18,6 @@ struct Apart {
     moved = std::max(moved, other.moved);
     turned = std::max(turned, other.turned);
   }
-  template <class Archive> void remember(Archive& a) { a(moved, turned); }
 };
 
 /// What moves in a scene: bodies, and lines with the places of their nodes.

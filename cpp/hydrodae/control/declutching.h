@@ -5,6 +5,12 @@
 
 namespace hydrodae::control {
 
+struct DeclutchingState {
+  bool began = false;
+  double heard = -INFINITY, until = -INFINITY; ///< last standstill, end of the free time [s]
+  double next = INFINITY;
+};
+
 /// Declutching (Babarit, Guglielmi, Clement, Ocean Engineering 36 (2009) 1015-1024): from each
 /// standstill of a joint on the machine is free for some time, then it works until the next one.
 ///
@@ -13,7 +19,7 @@ namespace hydrodae::control {
 ///
 /// The standstill, where s' changes its sign, is an event that the kernel locates. A standstill
 /// within `rest` of the one before is not heard.
-class DeclutchingLaw final : public Law {
+class DeclutchingLaw final : public StatefulLaw<DeclutchingState> {
 public:
   /// @param time  for which it is free [s]
   /// @param rest  from a standstill until the next one that is heard [s]
@@ -21,31 +27,27 @@ public:
       : engaged_(engaged), free_(free), time_(time), rest_(rest) {}
 
   void crossed(double t) override {
-    if (t < heard_ + rest_)
+    if (t < state_.heard + rest_)
       return;
-    heard_ = t;
-    until_ = t + time_;
+    state_.heard = t;
+    state_.until = t + time_;
   }
 
   /// @param in  s'
   void sample(double t, std::span<const double> in, std::span<double> out) override {
-    if (!began_ && in[0] == 0.0)
+    if (!state_.began && in[0] == 0.0)
       crossed(t);
-    began_ = true;
-    out[0] = t < until_ ? free_ : engaged_;
-    next_ = t < until_ ? until_ : INFINITY;
+    state_.began = true;
+    out[0] = t < state_.until ? free_ : engaged_;
+    state_.next = t < state_.until ? state_.until : INFINITY;
   }
 
   bool hears_events() const override { return true; }
   bool hears_crossings() const override { return true; }
-  double next_time(double) const override { return next_; }
-  void remember(Archive& a) override { a(began_, heard_, until_, next_); }
+  double next_time(double) const override { return state_.next; }
 
 private:
   double engaged_, free_, time_, rest_;
-  bool began_ = false;
-  double heard_ = -INFINITY, until_ = -INFINITY; ///< last standstill, end of the free time [s]
-  double next_ = INFINITY;
 };
 
 struct Declutching : Sampled {

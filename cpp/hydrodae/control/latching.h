@@ -7,6 +7,12 @@
 
 namespace hydrodae::control {
 
+struct LatchingState {
+  enum class Phase { ready, held, released };
+  Phase phase = Phase::ready;
+  double until = INFINITY; ///< of this phase [s]
+};
+
 /// Latching (Budal, Falnes 1980): holds a joint from a standstill on for some time, then lets it
 /// go. What it writes is the largest load that the dry friction of the joint holds: the kernel
 /// locates the standstill, and the joint sticks there exactly.
@@ -17,7 +23,7 @@ namespace hydrodae::control {
 ///
 /// Whether it sticks is asked of the kernel, not judged by the rate: a joint that creeps may be
 /// caught by the very act of getting ready, without an event of its own.
-class LatchingLaw final : public Law {
+class LatchingLaw final : public StatefulLaw<LatchingState> {
 public:
   /// @param time    for which it holds [s]
   /// @param rest    from the release until it may hold again [s]
@@ -28,29 +34,26 @@ public:
   void sample(double t, std::span<const double>, std::span<double> out) override {
     if (is_due())
       go(Phase::held, t + time_);
-    else if (phase_ == Phase::held && t >= until_)
+    else if (state_.phase == Phase::held && t >= state_.until)
       go(Phase::released, t + rest_);
-    else if (phase_ == Phase::released && t >= until_)
+    else if (state_.phase == Phase::released && t >= state_.until)
       go(Phase::ready, INFINITY);
-    out[0] = phase_ == Phase::released ? 0.0 : load_;
+    out[0] = state_.phase == Phase::released ? 0.0 : load_;
   }
 
-  bool is_due() const override { return phase_ == Phase::ready && sticks_(); }
-  double next_time(double) const override { return until_; }
-  void remember(Archive& a) override { a(phase_, until_); }
+  bool is_due() const override { return state_.phase == Phase::ready && sticks_(); }
+  double next_time(double) const override { return state_.until; }
 
 private:
-  enum class Phase { ready, held, released };
+  using Phase = LatchingState::Phase;
 
   void go(Phase phase, double until) {
-    phase_ = phase;
-    until_ = until;
+    state_.phase = phase;
+    state_.until = until;
   }
 
   double load_, time_, rest_;
   std::function<bool()> sticks_;
-  Phase phase_ = Phase::ready;
-  double until_ = INFINITY; ///< of this phase [s]
 };
 
 struct Latching : Sampled {

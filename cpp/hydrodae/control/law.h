@@ -57,8 +57,9 @@ public:
   /// no number: the period holds.
   virtual double next_time(double) const { return NAN; }
 
-  /// All that an answer depends on beside its arguments.
-  virtual void remember(Archive&) {}
+  /// All that an answer depends on beside its arguments, as bytes.
+  virtual std::string state() { return ""; }
+  virtual void set(const std::string&) {}
 
   /// The run has gone to another time than that of its last step.
   virtual void restored(double) {}
@@ -68,6 +69,16 @@ public:
 
   /// The run ends: completed, or stopped by the error of this message.
   virtual void finish(const std::string&) {}
+};
+
+/// A law whose answers depend on a plain struct.
+template <class State> class StatefulLaw : public Law {
+public:
+  std::string state() override { return to_bytes(state_); }
+  void set(const std::string& bytes) override { state_ = from_bytes<State>(bytes); }
+
+protected:
+  State state_;
 };
 
 } // namespace hydrodae::control

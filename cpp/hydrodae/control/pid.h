@@ -6,6 +6,11 @@
 
 namespace hydrodae::control {
 
+struct PidState {
+  bool began = false;
+  double error = 0.0, slope = 0.0, integral = 0.0;
+};
+
 /// PID controller with a filtered derivative, limits and back-calculation (Astrom, Murray, Feedback
 /// Systems, 2nd ed. 2021, sec. 11.5), at sampling instants T apart:
 ///
@@ -13,7 +18,7 @@ namespace hydrodae::control {
 ///   d = Tf / (Tf + T) d + (e - e_before) / (Tf + T)      0 at the first instant
 ///   v = Kp e + I + Kd d,   u = v within [lower, upper]
 ///   I += T (Ki e + (u - v) / Tt)                         0 at the start; Tt: tracking time
-class PidLaw final : public Law {
+class PidLaw final : public StatefulLaw<PidState> {
 public:
   struct Gains {
     double p = 0.0, i = 0.0, d = 0.0;
@@ -29,21 +34,17 @@ public:
   void sample(double, std::span<const double> in, std::span<double> out) override {
     const double e = (in.size() > 1 ? in[1] : g_.target) - in[0],
                  width = g_.filter_time + g_.period;
-    if (began_)
-      slope_ = g_.filter_time / width * slope_ + (e - error_) / width;
-    const double wanted = g_.p * e + integral_ + g_.d * slope_;
+    if (state_.began)
+      state_.slope = g_.filter_time / width * state_.slope + (e - state_.error) / width;
+    const double wanted = g_.p * e + state_.integral + g_.d * state_.slope;
     out[0] = std::clamp(wanted, g_.lower, g_.upper);
-    integral_ += g_.period * (g_.i * e + (out[0] - wanted) / g_.tracking_time);
-    error_ = e;
-    began_ = true;
+    state_.integral += g_.period * (g_.i * e + (out[0] - wanted) / g_.tracking_time);
+    state_.error = e;
+    state_.began = true;
   }
-
-  void remember(Archive& a) override { a(began_, error_, slope_, integral_); }
 
 private:
   Gains g_;
-  bool began_ = false;
-  double error_ = 0.0, slope_ = 0.0, integral_ = 0.0;
 };
 
 struct Pid : Sampled {

@@ -1,19 +1,19 @@
 #pragma once
-/// What a run remembers, as plain numbers. A class that changes from step to step lists its members
-/// once, for saving and for restoring:
-///
-///   void remember(Archive& a) { a(size_, times_); }
+/// Values as bytes, and back. A State is a plain struct without base classes or constructors: its
+/// members are found here, so that nothing has to list them twice.
 
-#include <algorithm>
-#include <array>
-#include <cmath>
+#include <concepts>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <deque>
-#include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "hydrodae/core/error.h"
@@ -21,24 +21,86 @@
 
 namespace hydrodae {
 
-/// Numbers by the name of the part that they belong to.
-using Memory = std::map<std::string, std::vector<double>>;
+/// Calls `visit` with all members of a plain struct at once, in their order: at most 16. A struct
+/// has so many members as it takes initialisers.
+template <class Struct, class Visit>
+  requires std::is_aggregate_v<std::remove_const_t<Struct>>
+void visit_members(Struct& value, Visit&& visit) {
+  using T = std::remove_const_t<Struct>;
+  // clang-format off
+  static_assert(!requires { T{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}}; },
+                "a plain struct with more than 16 members: nest them");
+  if constexpr (requires { T{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}}; }) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = value;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
+  } else if constexpr (requires { T{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}}; }) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = value;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
+  } else if constexpr (requires { T{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}}; }) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = value;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
+  } else if constexpr (requires { T{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}}; }) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = value;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m);
+  } else if constexpr (requires { T{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}}; }) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l] = value;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l);
+  } else if constexpr (requires { T{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}}; }) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k] = value;
+    visit(a, b, c, d, e, f, g, h, i, j, k);
+  } else if constexpr (requires { T{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}}; }) {
+    auto& [a, b, c, d, e, f, g, h, i, j] = value;
+    visit(a, b, c, d, e, f, g, h, i, j);
+  } else if constexpr (requires { T{{}, {}, {}, {}, {}, {}, {}, {}, {}}; }) {
+    auto& [a, b, c, d, e, f, g, h, i] = value;
+    visit(a, b, c, d, e, f, g, h, i);
+  } else if constexpr (requires { T{{}, {}, {}, {}, {}, {}, {}, {}}; }) {
+    auto& [a, b, c, d, e, f, g, h] = value;
+    visit(a, b, c, d, e, f, g, h);
+  } else if constexpr (requires { T{{}, {}, {}, {}, {}, {}, {}}; }) {
+    auto& [a, b, c, d, e, f, g] = value;
+    visit(a, b, c, d, e, f, g);
+  } else if constexpr (requires { T{{}, {}, {}, {}, {}, {}}; }) {
+    auto& [a, b, c, d, e, f] = value;
+    visit(a, b, c, d, e, f);
+  } else if constexpr (requires { T{{}, {}, {}, {}, {}}; }) {
+    auto& [a, b, c, d, e] = value;
+    visit(a, b, c, d, e);
+  } else if constexpr (requires { T{{}, {}, {}, {}}; }) {
+    auto& [a, b, c, d] = value;
+    visit(a, b, c, d);
+  } else if constexpr (requires { T{{}, {}, {}}; }) {
+    auto& [a, b, c] = value;
+    visit(a, b, c);
+  } else if constexpr (requires { T{{}, {}}; }) {
+    auto& [a, b] = value;
+    visit(a, b);
+  } else if constexpr (requires { T{{}}; }) {
+    auto& [a] = value;
+    visit(a);
+  }
+  // clang-format on
+}
 
-/// Copies values to the end of a list of numbers, or from it, in the same order. Integers are exact
-/// below 2^53. Throws Error where a list to restore from is too short or too long.
+/// Copies values to the end of a text of bytes, or from it, in the same order; of this kind of
+/// machine. Throws Error where the bytes to read from are too few or too many.
 class Archive {
 public:
-  explicit Archive(std::vector<double>& out) : out_(&out) {} ///< saves
-  explicit Archive(const std::vector<double>& in)            ///< restores
-      : next_(in.data()), end_(in.data() + in.size()) {}
+  explicit Archive(std::string& out) : out_(&out) {}   ///< writes
+  explicit Archive(std::string_view in) : left_(in) {} ///< reads
 
-  bool saves() const { return out_ != nullptr; }
+  template <class T> void operator()(T& value) {
+    if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>)
+      raw(&value, sizeof value);
+    else if constexpr (std::is_aggregate_v<T>)
+      visit_members(value, [this](auto&... member) { ((*this)(member), ...); });
+    else
+      take(value);
+  }
 
-  template <class... Values> void operator()(Values&... values) { (take(values), ...); }
-
-  /// To be called after the last value.
+  /// To be called after the last value that is read.
   void finish() const {
-    if (next_ != end_)
+    if (!left_.empty())
       misfit();
   }
 
@@ -48,120 +110,100 @@ private:
                 "version of hydrodae");
   }
 
-  void number(double& value) {
-    if (saves()) {
-      out_->push_back(value);
+  bool writes() const { return out_ != nullptr; }
+
+  void raw(void* value, std::size_t bytes) {
+    if (writes()) {
+      out_->append(static_cast<const char*>(value), bytes);
       return;
     }
-    if (next_ == end_)
+    if (left_.size() < bytes)
       misfit();
-    value = *next_++;
+    if (bytes > 0)
+      std::memcpy(value, left_.data(), bytes);
+    left_.remove_prefix(bytes);
   }
 
-  void numbers(double* values, std::size_t count) {
-    if (saves()) {
-      out_->insert(out_->end(), values, values + count);
-      return;
-    }
-    if (static_cast<std::size_t>(end_ - next_) < count)
-      misfit();
-    std::copy_n(next_, count, values);
-    next_ += count;
-  }
-
-  /// Of a list whose elements take at least `least` numbers each.
+  /// Number of elements of a list, each of which takes at least `least` bytes.
   std::size_t size(std::size_t now, std::size_t least = 1) {
-    auto value = static_cast<double>(now);
-    number(value);
-    const double most = saves() ? INFINITY
-                                : static_cast<double>(end_ - next_) /
-                                      static_cast<double>(std::max<std::size_t>(least, 1));
-    if (!(value >= 0.0 && value <= most && value == std::floor(value)))
+    auto value = static_cast<std::uint64_t>(now);
+    raw(&value, sizeof value);
+    if (!writes() && value > left_.size() / least)
       misfit();
     return static_cast<std::size_t>(value);
   }
 
-  template <class T> void take(T& value) {
-    if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
-      auto x = static_cast<double>(value);
-      number(x);
-      value = static_cast<T>(x);
-    } else {
-      value.remember(*this);
-    }
-  }
-
-  void take(VectorX& v) {
-    v.resize(static_cast<Eigen::Index>(size(static_cast<std::size_t>(v.size()))));
-    numbers(v.data(), static_cast<std::size_t>(v.size()));
-  }
-
-  void take(MatrixX& m) {
-    const std::size_t columns = size(static_cast<std::size_t>(m.cols()), 0),
-                      count = size(static_cast<std::size_t>(m.size()));
-    if (!saves())
-      m.resize(static_cast<Eigen::Index>(columns > 0 ? count / columns : 0),
-               static_cast<Eigen::Index>(columns));
-    numbers(m.data(), static_cast<std::size_t>(m.size()));
-  }
-
-  void take(std::vector<double>& v) {
+  template <class List> void list(List& v) {
     v.resize(size(v.size()));
-    numbers(v.data(), v.size());
+    for (auto& x : v)
+      (*this)(x);
+  }
+  template <class List> void contiguous(List& v) {
+    v.resize(size(v.size(), sizeof(v[0])));
+    raw(v.data(), v.size() * sizeof(v[0]));
   }
 
+  void take(std::string& v) { contiguous(v); }
+  template <class T> void take(std::deque<T>& v) { list(v); }
   template <class T> void take(std::vector<T>& v) {
-    v.resize(size(v.size()));
-    for (T& x : v)
-      take(x);
+    if constexpr (std::is_arithmetic_v<T>)
+      contiguous(v);
+    else
+      list(v);
   }
 
-  template <class T> void take(std::deque<T>& v) {
-    v.resize(size(v.size()));
-    for (T& x : v)
-      take(x);
-  }
-
-  template <class T, std::size_t n> void take(std::array<T, n>& v) {
-    for (T& x : v)
-      take(x);
+  template <int rows, int columns> void take(Eigen::Matrix<double, rows, columns>& m) {
+    const auto own = [](Eigen::Index n) { return static_cast<std::size_t>(n); };
+    const std::size_t n = size(own(m.rows()), sizeof(double)),
+                      k = columns == 1 ? 1 : size(own(m.cols()), sizeof(double));
+    if (!writes() && n > 0 && k > left_.size() / sizeof(double) / n)
+      misfit();
+    m.resize(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(k));
+    raw(m.data(), n * k * sizeof(double));
   }
 
   template <class A, class B> void take(std::pair<A, B>& v) {
-    take(v.first);
-    take(v.second);
+    (*this)(v.first);
+    (*this)(v.second);
   }
 
   template <class T> void take(std::optional<T>& v) {
-    bool there = v.has_value();
-    take(there);
-    if (!there)
+    if (size(v.has_value()) == 0)
       v.reset();
-    else if (!v)
-      v.emplace();
-    if (v)
-      take(*v);
+    else
+      (*this)(v ? *v : v.emplace());
   }
 
-  std::vector<double>* out_ = nullptr;
-  const double *next_ = nullptr, *end_ = nullptr;
+  template <class... Ts> void take(std::variant<Ts...>& v) {
+    const std::size_t which = size(v.index(), 1);
+    if (!writes()) {
+      std::size_t k = 0;
+      const bool known = ((k++ == which && (v.template emplace<Ts>(), true)) || ...);
+      if (!known)
+        misfit();
+    }
+    std::visit([this](auto& value) { (*this)(value); }, v);
+  }
+
+  std::string* out_ = nullptr;
+  std::string_view left_;
 };
 
-/// Saves what `part` remembers under `name`.
-template <class Part> void save(Memory& memory, const std::string& name, Part& part) {
-  std::vector<double>& numbers = memory[name];
-  numbers.clear();
-  Archive archive(numbers);
-  archive(part);
+/// A value as bytes.
+template <class T> std::string to_bytes(const T& value) {
+  std::string out;
+  Archive archive(out);
+  archive(const_cast<T&>(value)); // which it only reads
+  return out;
 }
 
-/// Restores it; see Archive.
-template <class Part> void restore(const Memory& memory, const std::string& name, Part& part) {
-  static const std::vector<double> none;
-  const auto found = memory.find(name);
-  Archive archive(found == memory.end() ? none : found->second);
-  archive(part);
+/// The value that these bytes are. Throws Error; see Archive.
+template <class T> T from_bytes(std::string_view bytes) {
+  T out;
+  Archive archive(bytes);
+  archive(out);
   archive.finish();
+  return out;
 }
 
 } // namespace hydrodae

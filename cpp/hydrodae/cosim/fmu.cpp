@@ -143,24 +143,24 @@ public:
     }
   }
 
-  /// The state as it is serialised, six bytes a number: these are exact.
-  void remember(Archive& a) override {
+  std::string state() override {
     if (!map_.fmu.saves_states)
       throw CaseError(no_states(name_));
-    bool begun = begun_;
-    std::vector<char> bytes = a.saves() && begun ? slave_->save() : std::vector<char>();
-    std::vector<double> numbers = packed(bytes);
-    std::size_t size = bytes.size();
-    a(begun, t_, size, numbers);
-    if (a.saves())
-      return;
-    if (begun)
-      slave_->load(unpacked(numbers, size));
+    const std::vector<char> own = begun_ ? slave_->save() : std::vector<char>();
+    return to_bytes(State{begun_, t_, std::string(own.begin(), own.end())});
+  }
+  void set(const std::string& bytes) override {
+    if (!map_.fmu.saves_states)
+      throw CaseError(no_states(name_));
+    const auto from = from_bytes<State>(bytes);
+    if (from.begun)
+      slave_->load({from.own.begin(), from.own.end()});
     else if (begun_) {
       slave_->reset();
       set_parameters();
     }
-    begun_ = begun;
+    begun_ = from.begun;
+    t_ = from.t;
   }
 
   std::vector<std::string> unit_notes() const override { return map_.unit_notes; }
@@ -176,31 +176,16 @@ public:
   }
 
 private:
-  static constexpr std::size_t part = 6; ///< bytes that a double holds exactly
+  struct State {
+    bool begun = false;
+    double t = 0.0;  ///< [s]
+    std::string own; ///< of the FMU, as it serialises it
+  };
 
   void set_parameters() {
     slave_->set(map_.parameters, values_);
     for (std::size_t k = 0; k < texts_.size(); ++k)
       slave_->set_text(map_.text_parameters[k], texts_[k]);
-  }
-
-  static std::vector<double> packed(const std::vector<char>& bytes) {
-    std::vector<double> out;
-    for (std::size_t k = 0; k < bytes.size(); k += part) {
-      std::uint64_t number = 0;
-      for (std::size_t i = k; i < std::min(k + part, bytes.size()); ++i)
-        number |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[i])) << 8 * (i - k);
-      out.push_back(static_cast<double>(number));
-    }
-    return out;
-  }
-
-  static std::vector<char> unpacked(const std::vector<double>& numbers, std::size_t size) {
-    std::vector<char> out;
-    for (const double value : numbers)
-      for (std::size_t i = 0; i < part && out.size() < size; ++i)
-        out.push_back(static_cast<char>(static_cast<std::uint64_t>(value) >> 8 * i & 0xff));
-    return out;
   }
 
   std::string name_;

@@ -43,15 +43,17 @@ double Crossing::rate(double t, const VectorX& y, const VectorX& yp) {
 
 /// What part of the largest rate is left until it has crossed zero, and a little more.
 double Crossing::left(double rate) const {
-  return side_ != 0.0 && fastest_ > 0.0 ? side_ * rate / fastest_ + beyond_zero : 1.0;
+  return state_.side != 0.0 && state_.fastest > 0.0
+             ? state_.side * rate / state_.fastest + beyond_zero
+             : 1.0;
 }
 
 bool Crossing::accept(double t, const VectorX& y, const VectorX& yp) {
   const double now = rate(t, y, yp);
   const bool crossed = left(now) <= 0.0;
-  fastest_ = std::max(fastest_, std::abs(now));
-  if (crossed || side_ == 0.0)
-    side_ = now > 0.0 ? 1.0 : now < 0.0 ? -1.0 : 0.0;
+  state_.fastest = std::max(state_.fastest, std::abs(now));
+  if (crossed || state_.side == 0.0)
+    state_.side = now > 0.0 ? 1.0 : now < 0.0 ? -1.0 : 0.0;
   return crossed;
 }
 

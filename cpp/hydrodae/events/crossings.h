@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "hydrodae/core/archive.h"
 #include "hydrodae/events/source.h"
 #include "hydrodae/system/kinematics.h"
 
@@ -26,7 +25,12 @@ public:
   /// At the end of an accepted step. @returns whether it ends in a crossing
   bool accept(double t, const VectorX& y, const VectorX& yp);
 
-  void remember(Archive& a) { a(side_, fastest_); }
+  struct State {
+    double side = 0.0;    ///< sign of the rate since the last crossing; 0: at rest so far
+    double fastest = 0.0; ///< [m/s or rad/s]
+  };
+  const State& state() const { return state_; }
+  void set(const State& state) { state_ = state; }
 
 private:
   double rate(double t, const VectorX& y, const VectorX& yp);
@@ -35,8 +39,7 @@ private:
   const system::Regime& s_;
   int motion_;
   system::Workspace<double> ws_;
-  double side_ = 0.0;    ///< sign of the rate since the last crossing; 0: at rest so far
-  double fastest_ = 0.0; ///< [m/s or rad/s]
+  State state_;
 };
 
 } // namespace hydrodae::events

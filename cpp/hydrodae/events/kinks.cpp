@@ -15,13 +15,13 @@ Kinks::Kinks(system::Regime& regime) : s_(regime), view_(regime, &element::Eleme
   std::size_t n = 0;
   for (const View::List& list : view_.lists())
     n += list.laws->size() * static_cast<std::size_t>(list.laws->n_kinks);
-  side_.assign(n, 0.0);
+  state_.side.assign(n, 0.0);
   now_.resize(n);
 }
 
 std::unique_ptr<Kinks> Kinks::make(system::Regime& regime, const VectorX& y) {
   std::unique_ptr<Kinks> out(new Kinks(regime));
-  if (out->side_.empty())
+  if (out->state_.side.empty())
     return nullptr;
   out->settle(0.0, y);
   return out;
@@ -36,21 +36,21 @@ void Kinks::look(double t, const VectorX& y, double* out) {
 
 void Kinks::margins(double t, const VectorX& y, const VectorX&, std::span<double> out) {
   look(t, y, out.data());
-  for (std::size_t k = 0; k < side_.size(); ++k)
-    out[k] = side_[k] == 0.0 ? 1.0 : side_[k] * out[k] + nothing;
+  for (std::size_t k = 0; k < state_.side.size(); ++k)
+    out[k] = state_.side[k] == 0.0 ? 1.0 : state_.side[k] * out[k] + nothing;
 }
 
 void Kinks::settle(double t, const VectorX& y) {
   look(t, y, now_.data());
-  for (std::size_t k = 0; k < side_.size(); ++k)
+  for (std::size_t k = 0; k < state_.side.size(); ++k)
     if (std::abs(now_[k]) >= nothing)
-      side_[k] = now_[k] > 0.0 ? 1.0 : -1.0;
+      state_.side[k] = now_[k] > 0.0 ? 1.0 : -1.0;
   write();
 }
 
 /// Into the signals of the laws.
 void Kinks::write() {
-  auto side = side_.begin();
+  auto side = state_.side.begin();
   for (const View::List& list : view_.lists()) {
     double* own = s_.signals[list.index].data() + list.laws->side_at;
     for (std::size_t k = 0; k < list.laws->size(); ++k, own += list.laws->shape.n_signals)
@@ -60,14 +60,13 @@ void Kinks::write() {
 }
 
 void Kinks::accept(double t, const VectorX& y) {
-  if (std::find(side_.begin(), side_.end(), 0.0) != side_.end())
+  if (std::find(state_.side.begin(), state_.side.end(), 0.0) != state_.side.end())
     settle(t, y);
 }
 
-void Kinks::remember(Archive& a) {
-  a(side_);
-  if (!a.saves())
-    write();
+void Kinks::set(State state) {
+  state_ = std::move(state);
+  write();
 }
 
 } // namespace hydrodae::events

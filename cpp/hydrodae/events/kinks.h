@@ -7,7 +7,6 @@
 #include <memory>
 #include <vector>
 
-#include "hydrodae/core/archive.h"
 #include "hydrodae/events/law_view.h"
 #include "hydrodae/events/source.h"
 
@@ -19,7 +18,7 @@ public:
   /// Null: no law of the system has any.
   static std::unique_ptr<Kinks> make(system::Regime& regime, const VectorX& y);
 
-  std::size_t count() const override { return side_.size(); }
+  std::size_t count() const override { return state_.side.size(); }
   void margins(double t, const VectorX& y, const VectorX& yp, std::span<double> out) override;
 
   /// At an event at t [s]: puts each law on the side of its kink that its number has.
@@ -28,7 +27,11 @@ public:
   /// At the end of a step without one: those that were on the kink may have left it.
   void accept(double t, const VectorX& y);
 
-  void remember(Archive& a);
+  struct State {
+    std::vector<double> side; ///< 1, -1; 0: on the kink so far
+  };
+  const State& state() const { return state_; }
+  void set(State state);
 
 private:
   using View = LawView<element::Elements>;
@@ -38,7 +41,7 @@ private:
 
   system::Regime& s_;
   View view_;
-  std::vector<double> side_; ///< 1, -1; 0: on the kink so far
+  State state_;
   std::vector<double> now_, room_;
 };
 

@@ -31,13 +31,9 @@ bool LawEvents::settle(double t, const VectorX& y) {
   return slips_ && slips_->settle(t, y);
 }
 
-void LawEvents::remember(Archive& a) {
-  if (partings_)
-    a(*partings_);
-  if (slips_)
-    a(*slips_);
+void LawEvents::set(Kinks::State state) {
   if (kinks_)
-    a(*kinks_);
+    kinks_->set(std::move(state));
 }
 
 } // namespace hydrodae::events

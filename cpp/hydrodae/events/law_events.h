@@ -28,7 +28,9 @@ public:
   /// @returns whether anything sticks or slips that did not
   bool settle(double t, const VectorX& y);
 
-  void remember(Archive& a);
+  /// But for the signals of the laws, which the regime holds.
+  Kinks::State state() const { return kinks_ ? kinks_->state() : Kinks::State{}; }
+  void set(Kinks::State state);
 
 private:
   // Null if absent.

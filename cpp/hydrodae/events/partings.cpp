@@ -74,15 +74,4 @@ void Partings::part(double t, const VectorX& y) {
   sudden_.clear();
 }
 
-void Partings::remember(Archive& a) {
-  for (const View::List& list : view_.lists()) {
-    const element::Shape& shape = s_.elements[list.index].laws->shape;
-    std::vector<double>& held = s_.signals[list.index];
-    for (std::size_t end = static_cast<std::size_t>(shape.n_signals); end <= held.size();
-         end += static_cast<std::size_t>(shape.n_signals))
-      for (std::size_t k = end - element::Parting::n_signals; k < end; ++k)
-        a(held[k]);
-  }
-}
-
 } // namespace hydrodae::events

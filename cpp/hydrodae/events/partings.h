@@ -4,7 +4,6 @@
 #include <memory>
 #include <vector>
 
-#include "hydrodae/core/archive.h"
 #include "hydrodae/element/parting.h"
 #include "hydrodae/events/law_view.h"
 #include "hydrodae/events/source.h"
@@ -27,8 +26,6 @@ public:
 
   /// At an event: lets part what has reached its breaking load at t [s].
   void part(double t, const VectorX& y);
-
-  void remember(Archive& a);
 
 private:
   using View = LawView<element::Parting>;

@@ -53,10 +53,4 @@ bool Slips::settle(double t, const VectorX& y) {
   return changed;
 }
 
-void Slips::remember(Archive& a) {
-  for (const View::List& list : view_.lists())
-    for (double& held : s_.signals[list.index])
-      a(held);
-}
-
 } // namespace hydrodae::events

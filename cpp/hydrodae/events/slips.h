@@ -5,7 +5,6 @@
 #include <memory>
 #include <vector>
 
-#include "hydrodae/core/archive.h"
 #include "hydrodae/element/rubbing.h"
 #include "hydrodae/events/law_view.h"
 #include "hydrodae/events/source.h"
@@ -23,8 +22,6 @@ public:
   /// Lets stick and slip what does so at t [s]. Throws SolverError where that is not found.
   /// @returns whether anything has changed
   bool settle(double t, const VectorX& y);
-
-  void remember(Archive& a);
 
 private:
   using View = LawView<element::Rubbing>;

@@ -18,10 +18,10 @@ constexpr long watch = 1000; ///< events; see `count`
 
 Switching::Switching(system::Regime& system, double rtol)
     : s_(system), rtol_(rtol), ws_(system), size_(system.switches.size()),
-      depth_(system.switches.size()), struck_(system.switches.size()),
+      state_{std::vector<double>(size_.size()), std::vector<Struck>(size_.size())},
       y_(system::initial_state(system)), yp_(VectorX::Zero(system.n)) {
   for (std::size_t k = 0; k < size_.size(); ++k) // scales are those of the rows when they hold
-    set(k, s_.switches[k].kind == Kind::stop ? State::upper : State::stick);
+    put(k, s_.switches[k].kind == Kind::stop ? Mode::upper : Mode::stick);
   lay_out(s_);
   for (std::size_t k = 0; k < size_.size(); ++k) {
     const system::CouplerData& c = s_.couplers[static_cast<std::size_t>(s_.switches[k].coupler)];
@@ -30,7 +30,7 @@ Switching::Switching(system::Regime& system, double rtol)
     size_[k].length = c.velocity_level ? 1.0 : s_.row_scale[s_.mu(c)];
   }
   for (std::size_t k = 0; k < size_.size(); ++k)
-    set(k, State::open);
+    put(k, Mode::open);
   lay_out(s_);
   time_scale_ = INFINITY;
   for (const system::BodyData& b : s_.bodies)
@@ -56,7 +56,7 @@ Switching::Switching(system::Regime& system, double rtol)
 void Switching::fail(double t, Reason reason, const std::string& what) const {
   std::vector<std::string> names;
   for (const Data& element : s_.switches)
-    if (s_.mode(element) != State::open)
+    if (s_.mode(element) != Mode::open)
       names.push_back(s_.couplers[static_cast<std::size_t>(element.coupler)].name);
   throw SolverError(t,
                     {reason, what + (names.empty() ? "" : " (now acting: " + joined(names) + ")")});
@@ -65,15 +65,15 @@ void Switching::fail(double t, Reason reason, const std::string& what) const {
 /// Infinitely many events in a finite time (a ball that comes to rest ends in a captured contact
 /// before) would stop all progress.
 void Switching::count(double t) {
-  ++events_;
-  if (++recent_ < watch)
+  ++state_.events;
+  if (++state_.recent < watch)
     return;
-  if (t - checked_ < 1e-6 * time_scale_ * static_cast<double>(watch))
+  if (t - state_.checked < 1e-6 * time_scale_ * static_cast<double>(watch))
     fail(t, Reason::progress,
          std::to_string(watch) + " events of stops or dry friction brought only " +
-             number_text(t - checked_) + " s");
-  recent_ = 0;
-  checked_ = t;
+             number_text(t - state_.checked) + " s");
+  state_.recent = 0;
+  state_.checked = t;
 }
 
 void Switching::follow(const system::Turns& turns) {
@@ -81,12 +81,16 @@ void Switching::follow(const system::Turns& turns) {
   s_.nearby = turns.value;
 }
 
-void Switching::remember(Archive& a) {
-  a(depth_, struck_, events_, recent_, checked_, holding_, ws_.turns);
+Switching::State Switching::state() const {
+  State out = state_;
+  out.turns = ws_.turns;
+  return out;
 }
 
-void Switching::resume(double t, const VectorX& y, const VectorX& yp) {
+void Switching::set(State state, double t, const VectorX& y, const VectorX& yp) {
   const Stabilised lock(s_);
+  state_ = std::move(state);
+  ws_.turns = state_.turns;
   present_ = std::make_unique<Present>(s_);
   present_->equations.accept(t, y, yp);
 }
@@ -96,7 +100,7 @@ void Switching::resume(double t, const VectorX& y, const VectorX& yp) {
 void Switching::look(double t, const VectorX& y, const VectorX& yp) {
   y_ = y;
   yp_ = yp;
-  if (holding_ && !present_->saddle.accelerations(t, y_, yp_))
+  if (state_.holding && !present_->saddle.accelerations(t, y_, yp_))
     fail(t, Reason::not_finite, "no finite accelerations inside the step");
   unpack(t, y_, yp_);
 }
@@ -143,7 +147,7 @@ void Switching::margins_of(std::size_t k, double* out) const {
   const double spare = 2.0 * resting * size.load;
   out[1] = never;
   switch (s_.mode(element)) {
-  case State::open: {
+  case Mode::open: {
     if (element.kind != Kind::stop) {
       out[0] = never;
       return;
@@ -154,27 +158,27 @@ void Switching::margins_of(std::size_t k, double* out) const {
     const auto left = [&](double gap, double rate) {
       const bool slow = rate <= rtol_ * scale * size.rate;
       const double spare_gap = slow ? 0.1 * rtol_ * scale : 1e-3 * touching;
-      return std::isfinite(gap) ? gap + depth_[k] + spare_gap * size.length : never;
+      return std::isfinite(gap) ? gap + state_.depth[k] + spare_gap * size.length : never;
     };
     out[0] = left(element.upper - m.value, m.rate);
     out[1] = left(m.value - element.lower, -m.rate);
     return;
   }
-  case State::upper:
+  case Mode::upper:
     out[0] = -load(element, y_) + spare;
     return;
-  case State::lower:
+  case Mode::lower:
     out[0] = load(element, y_) + spare;
     return;
-  case State::stick:
+  case Mode::stick:
     out[0] = system::sticking_load(s_, element, y_.data()) + spare;
     out[1] = out[0] + load(element, y_);
     out[0] -= load(element, y_);
     return;
-  case State::forward:
+  case Mode::forward:
     out[0] = motion(element).rate + resting * size.rate;
     return;
-  case State::backward:
+  case Mode::backward:
     out[0] = -motion(element).rate + resting * size.rate;
     return;
   }
@@ -198,8 +202,8 @@ void Switching::accept(double t, const VectorX& y, const VectorX& yp) {
   const Stabilised lock(s_);
   look(t, y, yp);
   for (std::size_t k = 0; k < size_.size(); ++k)
-    if (depth_[k] > 0.0 && gap(k) >= 0.0)
-      depth_[k] = 0.0;
+    if (state_.depth[k] > 0.0 && gap(k) >= 0.0)
+      state_.depth[k] = 0.0;
   system::accept_turns(s_, t, y_.data(), yp_.data(), ws_);
   present_->equations.accept(t, y_, yp_);
 }

@@ -15,7 +15,6 @@
 #include <memory>
 #include <optional>
 
-#include "hydrodae/core/archive.h"
 #include "hydrodae/events/source.h"
 #include "hydrodae/linalg/saddle_point.h"
 #include "hydrodae/system/kinematics.h"
@@ -46,7 +45,6 @@ public:
   /// and the energy lost [J].
   struct Impact {
     double time = 0.0, impulse = 0.0, energy_lost = 0.0;
-    void remember(Archive& a) { a(time, impulse, energy_lost); }
   };
 
   /// What a stop or one-sided joint has taken in its impacts so far.
@@ -54,14 +52,13 @@ public:
     double impulse = 0.0;     ///< sum of their sizes [N s or N m s]
     double energy_lost = 0.0; ///< [J]
     std::vector<Impact> impacts;
-    void remember(Archive& a) { a(impulse, energy_lost, impacts); }
   };
-  const std::vector<Struck>& struck() const { return struck_; } ///< one for each switch
+  const std::vector<Struck>& struck() const { return state_.struck; } ///< one for each switch
 
   /// Angles go on from these values of all motions (of an accepted step).
   void follow(const system::Turns& turns);
 
-  long events() const { return events_; }
+  long events() const { return state_.events; }
 
   struct Motion { ///< s, s', s'' of the coordinate
     double value = 0.0, rate = 0.0, acceleration = 0.0;
@@ -76,15 +73,23 @@ public:
   /// The stop that the last `settle` found struck first, if any.
   std::optional<std::size_t> hit() const { return hit_; }
 
-  /// What it knows of the past, apart from the modes of the switches, which are the regime's.
-  void remember(Archive& a);
+  /// The past, apart from the modes of the switches, which the regime holds.
+  struct State {
+    std::vector<double> depth;  ///< beyond its bound, at which the last event left an open stop
+    std::vector<Struck> struck; ///< one for each switch
+    bool holding = false;       ///< does any switch hold?
+    long events = 0, recent = 0;
+    double checked = 0.0; ///< [s]
+    system::Turns turns;
+  };
+  State state() const;
 
-  /// After that was restored, and the system laid out: goes on from an accepted instant.
-  void resume(double t, const VectorX& y, const VectorX& yp);
+  /// Goes on from an accepted instant, whose rows the regime has laid out.
+  void set(State state, double t, const VectorX& y, const VectorX& yp);
 
 private:
   using Data = system::SwitchData;
-  using State = system::Regime::Mode;
+  using Mode = system::Regime::Mode;
   using Kind = Data::Kind;
 
   static constexpr double touching = 1e-9; ///< gaps, of the length that counts as one
@@ -132,7 +137,7 @@ private:
   double take_impact(double t, const VectorX& impulses, const VectorX& before,
                      const VectorX& after);
   bool correct(const VectorX& y, std::vector<int>& changes);
-  void set(std::size_t k, State mode) { system::set_mode(s_, s_.switches[k], mode); }
+  void put(std::size_t k, Mode mode) { system::set_mode(s_, s_.switches[k], mode); }
   [[noreturn]] void fail(double t, Reason reason, const std::string& what) const;
   void count(double t);
 
@@ -140,15 +145,11 @@ private:
   const double rtol_;
   system::Workspace<double> ws_;
   std::vector<Size> size_;
-  std::vector<double> depth_; ///< beyond its bound, at which the last event left an open stop
-  std::vector<Struck> struck_;
+  State state_;             ///< but for the turns, which `ws_` has
   double time_scale_ = 0.0; ///< shortest of the bodies [s]
   VectorX y_, yp_;
   std::unique_ptr<Present> present_; ///< the rows that hold now
   std::optional<std::size_t> hit_;
-  bool holding_ = false; ///< does any switch hold?
-  long events_ = 0, recent_ = 0;
-  double checked_ = 0.0;
 };
 
 } // namespace hydrodae::events

@@ -74,12 +74,12 @@ std::optional<double> Switching::impacts(double t, VectorX& y, VectorX& yp) {
                         size.rate;
     after[k] = std::abs(rebound) > slow ? rebound : 0.0;
     acts[k] = true;
-    set(k, upper ? State::upper : State::lower);
+    put(k, upper ? Mode::upper : Mode::lower);
   };
   for (std::size_t k = 0; k < count; ++k) {
     const Data& element = s_.switches[k];
     if (element.kind == Kind::friction) {
-      set(k, State::open); // the motion jumps: it slips, or sticks again
+      put(k, Mode::open); // the motion jumps: it slips, or sticks again
     } else if (s_.holds(element)) {
       acts[k] = true;
     } else if (touches(k) && approach(k) > resting * size_[k].rate) {
@@ -113,11 +113,11 @@ std::optional<double> Switching::impacts(double t, VectorX& y, VectorX& yp) {
       const Data& element = s_.switches[k];
       if (acts[k]) {
         const double push =
-            struck.impulses[row(k)] * (s_.mode(element) == State::upper ? -1.0 : 1.0);
+            struck.impulses[row(k)] * (s_.mode(element) == Mode::upper ? -1.0 : 1.0);
         after[k] = rates[row(k)];
         if (push < -resting * size_[k].load * time_scale_) {
           acts[k] = good = false;
-          set(k, State::open);
+          put(k, Mode::open);
         }
       } else if (element.kind == Kind::stop && touches(k) &&
                  approach(k) > resting * size_[k].rate) {
@@ -133,7 +133,7 @@ std::optional<double> Switching::impacts(double t, VectorX& y, VectorX& yp) {
   }
   for (std::size_t k = 0; k < count; ++k)
     if (acts[k] && after[k] != 0.0)
-      set(k, State::open);
+      put(k, Mode::open);
   return any ? std::optional(work) : std::nullopt;
 }
 
@@ -154,9 +154,9 @@ double Switching::take_impact(double t, const VectorX& impulses, const VectorX& 
       continue;
     const Impact impact{t, std::abs(impulses[row]),
                         -0.5 * impulses[row] * (before[row] + after[row])};
-    struck_[k].impulse += impact.impulse;
-    struck_[k].energy_lost += impact.energy_lost;
-    struck_[k].impacts.push_back(impact);
+    state_.struck[k].impulse += impact.impulse;
+    state_.struck[k].energy_lost += impact.energy_lost;
+    state_.struck[k].impacts.push_back(impact);
   }
   return work;
 }
@@ -165,26 +165,26 @@ double Switching::take_impact(double t, const VectorX& impulses, const VectorX& 
 bool Switching::correct(const VectorX& y, std::vector<int>& changes) {
   double worst = 0.0;
   std::size_t which = 0;
-  State next = State::open;
+  Mode next = Mode::open;
   for (std::size_t k = 0; k < size_.size(); ++k) {
     const Data& element = s_.switches[k];
     const Size& size = size_[k];
     double wrong = 0.0;
-    State wanted = State::open;
-    if (s_.mode(element) == State::upper || s_.mode(element) == State::lower) {
+    Mode wanted = Mode::open;
+    if (s_.mode(element) == Mode::upper || s_.mode(element) == Mode::lower) {
       const double f = load(element, y);
-      wrong = (s_.mode(element) == State::upper ? f : -f) / size.load;
-    } else if (s_.mode(element) == State::stick) {
+      wrong = (s_.mode(element) == Mode::upper ? f : -f) / size.load;
+    } else if (s_.mode(element) == Mode::stick) {
       const double f = load(element, y);
       wrong = (std::abs(f) - system::sticking_load(s_, element, y.data())) / size.load;
-      wanted = f > 0.0 ? State::backward : State::forward;
+      wanted = f > 0.0 ? Mode::backward : Mode::forward;
     } else if (element.kind == Kind::stop && touches(k)) {
       const Motion m = motion(element);
       const bool upper = element.upper - m.value < m.value - element.lower;
       const double outward = upper ? m.acceleration : -m.acceleration;
       if (std::abs(m.rate) <= resting * size.rate)
         wrong = outward * time_scale_ / size.rate;
-      wanted = upper ? State::upper : State::lower;
+      wanted = upper ? Mode::upper : Mode::lower;
     }
     if (wrong > resting && wrong > worst && changes[k] < 4) {
       worst = wrong;
@@ -195,7 +195,7 @@ bool Switching::correct(const VectorX& y, std::vector<int>& changes) {
   if (worst == 0.0)
     return false;
   ++changes[which];
-  set(which, next);
+  put(which, next);
   return true;
 }
 
@@ -211,7 +211,7 @@ std::optional<double> Switching::settle(double t, VectorX& y, VectorX& yp) {
       continue;
     const double rate = motion(element).rate;
     const bool rests = std::abs(rate) <= 10.0 * resting * size_[k].rate;
-    set(k, rests ? State::stick : rate > 0.0 ? State::forward : State::backward);
+    put(k, rests ? Mode::stick : rate > 0.0 ? Mode::forward : Mode::backward);
   }
   std::vector<int> changes(size_.size(), 0);
   for (std::size_t pass = 0;; ++pass) {
@@ -234,11 +234,11 @@ std::optional<double> Switching::settle(double t, VectorX& y, VectorX& yp) {
       break;
   }
   for (std::size_t k = 0; k < size_.size(); ++k) // the projection may have moved it further in
-    depth_[k] = s_.switches[k].kind == Kind::stop && s_.mode(s_.switches[k]) == State::open
-                    ? std::max(0.0, -gap(k))
-                    : 0.0;
-  holding_ = std::any_of(s_.switches.begin(), s_.switches.end(),
-                         [this](const Data& element) { return s_.holds(element); });
+    state_.depth[k] = s_.switches[k].kind == Kind::stop && s_.mode(s_.switches[k]) == Mode::open
+                          ? std::max(0.0, -gap(k))
+                          : 0.0;
+  state_.holding = std::any_of(s_.switches.begin(), s_.switches.end(),
+                               [this](const Data& element) { return s_.holds(element); });
   return struck;
 }
 

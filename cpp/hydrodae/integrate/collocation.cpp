@@ -45,8 +45,8 @@ public:
     if (project_)
       saddle_.emplace(e_);
     // The first step leaves rounding of the multipliers, eps / h, below the tolerance.
-    h_ = fixed_ ? options.step : std::min(max_step_, 3.0 * e_.first_step(y, yp));
-    reach_ = t0 + h_;
+    state_.h = fixed_ ? options.step : std::min(max_step_, 3.0 * e_.first_step(y, yp));
+    state_.reach = t0 + state_.h;
     e_.accept(now_.t, now_.y, now_.yp);
   }
 
@@ -57,7 +57,8 @@ public:
   double gap() const override { return gap_; }
   int degree() const override { return last_.rk().stages; }
   int quadrature_nodes() const override { return newton_->rk().stages + 2; }
-  void remember(Archive& a) override;
+  Memory state() const override;
+  void set(const Memory& state) override;
 
 private:
   void use(int stages);
@@ -78,18 +79,15 @@ private:
   linalg::ProgressGuard guard_;
   std::map<int, std::unique_ptr<StageNewton>> methods_; ///< by number of stages
   StageNewton* newton_ = nullptr;
-  double h_ = 0.0;
-  double reach_ = 0.0;              ///< time to which the error control would have stepped [s]
+  CollocationState state_;          ///< but for what its parts keep
   StageSolver::Start now_, before_; ///< at the end of the last step; before it, where it may fail
   StagePolynomial last_;
   StageSolver solver_;
   MatrixX rates_; ///< of the stages
   const DrivenRows driven_;
   VectorX error_, v_, guess_;
-  double last_h_ = 0.0, last_error_ = 1.0;
-  VectorX nodes_;                    ///< of the interpolant, on [0, 1]
-  double gap_ = 1.0;                 ///< see `gap`
-  int since_change_ = 0, slack_ = 0; ///< steps of this order; those last that Newton limited
+  VectorX nodes_;    ///< of the interpolant, on [0, 1]
+  double gap_ = 1.0; ///< see `gap`
 };
 
 void Collocation::use(int stages) {
@@ -104,15 +102,15 @@ void Collocation::use(int stages) {
     nodes_.conservativeResize(stages + 1);
     nodes_[stages] = 0.0;
   }
-  since_change_ = slack_ = 0;
-  last_h_ = 0.0; // its error was another method's
+  state_.since_change = state_.slack = 0;
+  state_.last_h = 0.0; // its error was another method's
 }
 
 void Collocation::fail(Reason reason, const std::string& what) {
   throw SolverError(now_.t, {reason,
-                             what + ", last step " + number_text(h_) + " s",
+                             what + ", last step " + number_text(state_.h) + " s",
                              "",
-                             {{"step", h_}},
+                             {{"step", state_.h}},
                              "",
                              e_.diagnosis(now_.t, now_.y, now_.yp)});
 }
@@ -206,12 +204,12 @@ void Collocation::choose_order(double error, bool cut) {
   constexpr double up = 0.02, down = 0.1, little = 1e-3;
   if (!chooses_order_ || solver_.was_full())
     return;
-  ++since_change_;
-  slack_ = (solver_.contraction() >= down || cut) && error <= little ? slack_ + 1 : 0;
+  ++state_.since_change;
+  state_.slack = (solver_.contraction() >= down || cut) && error <= little ? state_.slack + 1 : 0;
   const int stages = newton_->rk().stages;
-  if (solver_.contraction() <= up && stages < most_stages && since_change_ >= 10 && !cut)
+  if (solver_.contraction() <= up && stages < most_stages && state_.since_change >= 10 && !cut)
     use(stages + 2);
-  else if (slack_ >= 20 && stages > fewest) // passing a singular pose takes fewer steps
+  else if (state_.slack >= 20 && stages > fewest) // passing a singular pose takes fewer steps
     use(stages - 2);
 }
 
@@ -222,9 +220,10 @@ double Collocation::step(double end, double bound) {
   bool rejected = last_.empty();
   double hopeless = HUGE_VAL; // step from which on simplified Newton fails
   for (;;) {
-    const double left = end_ - now_.t, bounded = fixed_ ? HUGE_VAL : bound - now_.t, wanted = h_;
+    const double left = end_ - now_.t, bounded = fixed_ ? HUGE_VAL : bound - now_.t,
+                 wanted = state_.h;
     auto fitted = [&](double h) { return std::min(left - h < 0.01 * h ? left : h, bounded); };
-    double h = fitted(h_);
+    double h = fitted(state_.h);
     if (h < 1e-13 * std::max(std::abs(now_.t), e_.time_scale()) && h < left)
       fail(Reason::step,
            "Newton's iteration does not converge, or the local error stays too large, however "
@@ -232,12 +231,12 @@ double Collocation::step(double end, double bound) {
     e_.weights(now_.y, now_.w);
     // Shorter steps help simplified Newton. Near a singular pose they would shrink without end:
     // full Newton takes the step that the error allows, at the cost of about 2 s of the short ones.
-    const double allowed = std::min({reach_, end_, fixed_ ? end_ : bound}) - now_.t;
+    const double allowed = std::min({state_.reach, end_, fixed_ ? end_ : bound}) - now_.t;
     const double shortest = fixed_ ? 0.0 : allowed / (2.0 * newton_->rk().stages);
     bool solved = h >= shortest && h < hopeless && solver_.simplified(h);
     if (!solved && !fixed_ && newton_cut * h >= shortest) {
       hopeless = std::min(hopeless, h);
-      h_ = newton_cut * h;
+      state_.h = newton_cut * h;
       rejected = true;
       continue;
     }
@@ -250,8 +249,8 @@ double Collocation::step(double end, double bound) {
       if (fixed_)
         fail(Reason::step,
              "Newton's iteration does not converge at the fixed step, simplified or full");
-      h_ = std::min(h_, 0.7 * h);
-      reach_ = now_.t + 0.7 * h;
+      state_.h = std::min(state_.h, 0.7 * h);
+      state_.reach = now_.t + 0.7 * h;
       rejected = true;
       continue;
     }
@@ -266,31 +265,31 @@ double Collocation::step(double end, double bound) {
     double grow = std::clamp(safety * std::pow(err, -power), most_cut, most_growth);
     if (!(err < 1.0)) {
       ++e_.statistics.error_test_failures;
-      h_ = h * (std::isfinite(err) ? std::min(grow, 0.9) : most_cut);
-      reach_ = now_.t + h_;
+      state_.h = h * (std::isfinite(err) ? std::min(grow, 0.9) : most_cut);
+      state_.reach = now_.t + state_.h;
       rejected = true;
       continue;
     }
     const double next_reach = now_.t + h + std::min(max_step_, h * grow);
-    if (last_h_ > 0.0) // predictive control of Gustafsson
-      grow = std::min(grow,
-                      std::clamp(h / last_h_ * std::pow(err * err / last_error_, -power) * safety,
-                                 most_cut, most_growth));
+    if (state_.last_h > 0.0) // predictive control of Gustafsson
+      grow = std::min(grow, std::clamp(h / state_.last_h *
+                                           std::pow(err * err / state_.last_error, -power) * safety,
+                                       most_cut, most_growth));
     if (rejected)
       grow = std::min(grow, 1.0);
     if (!solver_.was_full()) // the contraction goes with the square of the step
       grow = std::min(grow, std::max(std::sqrt(aim / solver_.contraction()), 0.3));
-    last_h_ = h;
-    last_error_ = std::max(err, 1e-2);
+    state_.last_h = h;
+    state_.last_error = std::max(err, 1e-2);
     accept(h);
-    reach_ = std::max(reach_, next_reach);
+    state_.reach = std::max(state_.reach, next_reach);
     if (!(grow >= 1.0 && grow <= 1.2 &&
           solver_.contraction() <= 1e-3)) // else the matrices serve again
-      h_ = std::min(max_step_, h * grow);
+      state_.h = std::min(max_step_, h * grow);
     else
-      h_ = h;
+      state_.h = h;
     if (h == left) // a step that was cut says nothing against longer ones
-      h_ = std::max(h_, wanted);
+      state_.h = std::max(state_.h, wanted);
     choose_order(err, h < wanted);
     guard_.after_step(now_.t, [&] { return e_.diagnosis(now_.t, now_.y, now_.yp); });
     return now_.t;
@@ -303,11 +302,11 @@ bool Collocation::restart(double t, const VectorX& y, const VectorX& yp) {
   now_.y = y;
   now_.yp = yp;
   last_.clear();
-  last_h_ = 0.0;
-  last_error_ = 1.0;
-  since_change_ = slack_ = 0;
+  state_.last_h = 0.0;
+  state_.last_error = 1.0;
+  state_.since_change = state_.slack = 0;
   solver_.next_step();
-  reach_ = t + h_;
+  state_.reach = t + state_.h;
   e_.accept(now_.t, now_.y, now_.yp);
   return true;
 }
@@ -325,19 +324,29 @@ void Collocation::interpolate(double t, VectorX& y, VectorX& yp) {
     last_.between_ends(x, now_.y, y);
 }
 
-/// Without the matrices: they are made again.
-void Collocation::remember(Archive& a) {
-  int stages = newton_->rk().stages;
-  a(stages, last_);
-  if (!a.saves()) {
-    if (last_.stages() > 0) { // the last step may have been one of another order
-      use(last_.stages());
-      last_.set_method(newton_->rk());
-    }
-    use(stages);
+Memory Collocation::state() const {
+  CollocationState out = state_;
+  out.stages = newton_->rk().stages;
+  out.polynomial = last_.state();
+  out.solver = solver_.state();
+  out.made = {e_.statistics.last_step, e_.statistics.last_order};
+  out.guard = guard_.state();
+  return out;
+}
+
+void Collocation::set(const Memory& state) {
+  const auto& from = memory_of<CollocationState>(state);
+  last_.set(from.polynomial);
+  if (last_.stages() > 0) { // the last step may have been one of another order
+    use(last_.stages());
+    last_.set_method(newton_->rk());
   }
-  a(solver_, h_, reach_, last_h_, last_error_, since_change_, slack_, e_.statistics.last_step,
-    e_.statistics.last_order, guard_);
+  use(from.stages);
+  solver_.set(from.solver);
+  e_.statistics.last_step = from.made.length;
+  e_.statistics.last_order = from.made.order;
+  guard_.set(from.guard);
+  state_ = from;
 }
 
 } // namespace

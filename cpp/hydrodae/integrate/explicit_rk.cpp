@@ -44,8 +44,9 @@ public:
     y0_ = stage_ = stage_yp_ = trial_ = trial_yp_ = inside_ = inside_yp_ = y_;
     // A growth of the rounding error by 1e3 at most: the step is not the smallest that the method
     // could make, as it is for one of order 1.
-    h_ = fixed_ ? options.step
-                : std::min(max_step_, e_.first_step(y, yp) * std::pow(options.rtol, 0.2 - 0.5));
+    state_.h = fixed_
+                   ? options.step
+                   : std::min(max_step_, e_.first_step(y, yp) * std::pow(options.rtol, 0.2 - 0.5));
     if (!saddle_.accelerations(t_, y_, yp_))
       throw SolverError(t_, {Reason::not_finite, "no finite accelerations at the start"});
   }
@@ -65,8 +66,18 @@ public:
   /// Larger than it is between stages: in steps beyond a third of a wave the estimated errors are a
   /// hundred times too large.
   double gap() const override { return fixed_ ? 1.0 : 0.48; }
-  void remember(Archive& a) override {
-    a(h_, last_error_, usual_jump_, e_.statistics.last_step, e_.statistics.last_order, guard_);
+  Memory state() const override {
+    return ExplicitState{state_.h,
+                         state_.last_error,
+                         state_.usual_jump,
+                         {e_.statistics.last_step, e_.statistics.last_order},
+                         guard_.state()};
+  }
+  void set(const Memory& state) override {
+    state_ = memory_of<ExplicitState>(state);
+    e_.statistics.last_step = state_.made.length;
+    e_.statistics.last_order = state_.made.order;
+    guard_.set(state_.guard);
   }
 
 private:
@@ -96,23 +107,22 @@ private:
   linalg::SaddlePoint saddle_;
   const Index n_; ///< number of q, u and z, which the method integrates
   linalg::ProgressGuard guard_;
-  double t_ = 0.0, t0_ = 0.0, h_ = 0.0, done_ = 0.0; ///< `done_`: length of the last step
-  VectorX y_, yp_, y0_; ///< at the end of the last step, and y at its start
+  double t_ = 0.0, t0_ = 0.0, done_ = 0.0; ///< `done_`: length of the last step
+  VectorX y_, yp_, y0_;                    ///< at the end of the last step, and y at its start
   VectorX stage_, stage_yp_, trial_, trial_yp_, inside_, inside_yp_, w_;
   MatrixX k_;     ///< rates of the stages, one column each
   MatrixX dense_; ///< coefficients of the interpolant of order 7
   bool extended_ = false;
-  double last_error_ = 1e-4;
-  double rest_step_ = 0.0;  ///< the longest stable one of this rest, 0: not at rest
-  double usual_jump_ = 0.0; ///< of the accelerations between the last two stages, see is_smooth
+  ExplicitState state_;    ///< but for the last step and the guard, which others keep
+  double rest_step_ = 0.0; ///< the longest stable one of this rest, 0: not at rest
 };
 
 void ExplicitRk::fail(Reason reason, const std::string& what) {
   const std::string jam = saddle_.jam().empty() ? "" : ": " + saddle_.jam();
   throw SolverError(t_, {jam.empty() ? reason : Reason::friction,
-                         what + jam + ", last step " + number_text(h_) + " s",
+                         what + jam + ", last step " + number_text(state_.h) + " s",
                          "",
-                         {{"step", h_}},
+                         {{"step", state_.h}},
                          "",
                          e_.diagnosis(t_, y_, yp_)});
 }
@@ -182,10 +192,10 @@ bool ExplicitRk::is_smooth(double h) {
   stage_.setZero();
   stage_.head(n_) = h * (k_.col(pair_.stages) - k_.col(pair_.stages - 1));
   const double jump = std::max(e_.norm(w_, stage_), least);
-  const double common = std::max(usual_jump_, least);
+  const double common = std::max(state_.usual_jump, least);
   if (!(jump <= allowed * common))
     return false;
-  usual_jump_ = std::pow(common, memory) * std::pow(jump, 1.0 - memory);
+  state_.usual_jump = std::pow(common, memory) * std::pow(jump, 1.0 - memory);
   return true;
 }
 
@@ -209,9 +219,9 @@ double ExplicitRk::longest_at_rest(double err) {
 double ExplicitRk::growth(double err, double most) {
   const double e = std::max(err, 1e-10);
   const double grow =
-      std::clamp(safety * std::pow(e, -0.7 * power()) * std::pow(last_error_, 0.3 * power()),
+      std::clamp(safety * std::pow(e, -0.7 * power()) * std::pow(state_.last_error, 0.3 * power()),
                  least_growth, most);
-  last_error_ = std::max(e, 1e-4);
+  state_.last_error = std::max(e, 1e-4);
   return grow;
 }
 
@@ -233,9 +243,9 @@ double ExplicitRk::step(double end, double bound) {
   extended_ = false;
   bool failed = false;
   for (;;) {
-    const double left = end - t_, wanted = h_;
+    const double left = end - t_, wanted = state_.h;
     const double allowed = fixed_ ? left : std::min(left, bound - t_);
-    double h = std::min(h_, allowed);
+    double h = std::min(state_.h, allowed);
     if (allowed - h < 0.1 * h) // no sliver of a step behind it
       h = allowed;
     if (h < 1e-13 * std::max(std::abs(t_), e_.time_scale()) && h < left)
@@ -243,7 +253,7 @@ double ExplicitRk::step(double end, double bound) {
                                 : "the step has become too short");
     const auto shorten = [&](long& failures, double part) {
       ++failures;
-      h_ = part * h;
+      state_.h = part * h;
       failed = true;
     };
     if (!try_step(h)) {
@@ -267,10 +277,10 @@ double ExplicitRk::step(double end, double bound) {
     }
     accept(h, h == left ? end : t_ + h);
     if (!fixed_) {
-      h_ = h * growth(err, failed ? 1.0 : most_growth);
+      state_.h = h * growth(err, failed ? 1.0 : most_growth);
       if (h == left) // a step that was cut says nothing against longer ones
-        h_ = std::max(h_, wanted);
-      h_ = std::min({h_, max_step_, longest_at_rest(err)});
+        state_.h = std::max(state_.h, wanted);
+      state_.h = std::min({state_.h, max_step_, longest_at_rest(err)});
     }
     guard_.after_step(t_, [&] { return e_.diagnosis(t_, y_, yp_); });
     return t_;
@@ -283,8 +293,8 @@ bool ExplicitRk::restart(double t, const VectorX& y, const VectorX& yp) {
   yp_ = yp;
   e_.accept(t_, y_, yp_);
   y0_ = y_;
-  done_ = usual_jump_ = 0.0;
-  last_error_ = 1e-4;
+  done_ = state_.usual_jump = 0.0;
+  state_.last_error = 1e-4;
   rest_step_ = 0.0;
   extended_ = false;
   return saddle_.accelerations(t_, y_, yp_);

@@ -18,9 +18,9 @@ constexpr double newton_tolerance = 1e-8; ///< the step alone decides on the err
 
 /// With x = (u, z), a the algorithm's own accelerations, n the step:
 ///
-///   q_{n+1} = q_n o exp(h dq),  dq = u_n + h (1/2 - beta) a_n + h beta a_{n+1} + G^T mu
-///   x_{n+1} = x_n + h (1 - gamma) a_n + h gamma a_{n+1}
-///   (1 - alpha_m) a_{n+1} + alpha_m a_n = (1 - alpha_f) x'_{n+1} + alpha_f x'_n
+///   q_{n+1} = q_n o exp(h dq),  dq = u_n + h (1/2 - beta) a_n + h beta state_.a{n+1} + G^T mu
+///   x_{n+1} = x_n + h (1 - gamma) a_n + h gamma state_.a{n+1}
+///   (1 - alpha_m) state_.a{n+1} + alpha_m a_n = (1 - alpha_f) x'_{n+1} + alpha_f x'_n
 ///
 /// and F = 0 with x'_{n+1} at n+1. The Newton matrix is the Jacobian with d x' = d x c_x and, as
 /// exp is near the identity, d q' = d q c_q:  c_x = (1 - alpha_m) / ((1 - alpha_f) h gamma),
@@ -30,9 +30,9 @@ public:
   GeneralizedAlpha(const system::Regime& system, const system::Pattern& pattern,
                    const SolverOptions& options, double t0, const VectorX& y, const VectorX& yp)
       : s_(system), pattern_(linalg::condensed(system, pattern)),
-        e_(system, pattern_, newton_tolerance), newton_matrix_(system, pattern_), t_(t0), t0_(t0),
-        h_(options.step), n_x_(system.n_u + system.n_z), y_(y), yp_(yp), y0_(y), yp0_(yp),
-        trial_(y), trial_yp_(yp), residual_(y), w_(y), a_(yp.segment(system.u0, n_x_)), a_new_(a_),
+        e_(system, pattern_, newton_tolerance), newton_matrix_(system, pattern_), t_(t0),
+        h_(options.step), n_x_(system.n_u + system.n_z), y_(y), yp_(yp), trial_(y), trial_yp_(yp),
+        residual_(y), w_(y), a_new_(yp.segment(system.u0, n_x_)), state_{a_new_, y, yp, t0, {}},
         velocity_(VectorX::Zero(system.n_u)) {
     const double rho = options.spectral_radius;
     alpha_m_ = (2.0 * rho - 1.0) / (rho + 1.0);
@@ -46,8 +46,15 @@ public:
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   int degree() const override { return 3; }
   linalg::Statistics statistics() const override { return e_.statistics; }
-  void remember(Archive& a) override {
-    a(a_, y0_, yp0_, t0_, e_.statistics.last_step, e_.statistics.last_order);
+  Memory state() const override {
+    AlphaState out = state_;
+    out.made = {e_.statistics.last_step, e_.statistics.last_order};
+    return out;
+  }
+  void set(const Memory& state) override {
+    state_ = memory_of<AlphaState>(state);
+    e_.statistics.last_step = state_.made.length;
+    e_.statistics.last_order = state_.made.order;
   }
 
 private:
@@ -62,9 +69,10 @@ private:
   linalg::Equations e_;
   linalg::NewtonMatrix<double> newton_matrix_;
   double alpha_m_ = 0, alpha_f_ = 0, beta_ = 0, gamma_ = 0;
-  double t_ = 0.0, t0_ = 0.0, h_;
+  double t_ = 0.0, h_;
   Index n_x_;
-  VectorX y_, yp_, y0_, yp0_, trial_, trial_yp_, residual_, w_, a_, a_new_;
+  VectorX y_, yp_, trial_, trial_yp_, residual_, w_, a_new_;
+  AlphaState state_;      ///< but for the last step, which the statistics have
   VectorX velocity_;      ///< G^T mu of the last residual, tangent
   double factored_ = 0.0; ///< step of the matrix at hand [s]; 0: none
 };
@@ -101,15 +109,15 @@ void GeneralizedAlpha::fail(Reason reason, const std::string& what) {
 /// trial_ and its rates from a_new_, mu and the last G^T mu.
 void GeneralizedAlpha::update(double h) {
   trial_.segment(s_.u0, n_x_) =
-      y_.segment(s_.u0, n_x_) + h * ((1.0 - gamma_) * a_ + gamma_ * a_new_);
+      y_.segment(s_.u0, n_x_) + h * ((1.0 - gamma_) * state_.a + gamma_ * a_new_);
   trial_yp_.segment(s_.u0, n_x_) =
-      ((1.0 - alpha_m_) * a_new_ + alpha_m_ * a_ - alpha_f_ * yp_.segment(s_.u0, n_x_)) /
+      ((1.0 - alpha_m_) * a_new_ + alpha_m_ * state_.a - alpha_f_ * yp_.segment(s_.u0, n_x_)) /
       (1.0 - alpha_f_);
   trial_.head(s_.n_q) = y_.head(s_.n_q);
   const Index n = s_.n_u;
   system::retract(s_,
                   h * (y_.segment(s_.u0, n) +
-                       h * ((0.5 - beta_) * a_.head(n) + beta_ * a_new_.head(n)) + velocity_),
+                       h * ((0.5 - beta_) * state_.a.head(n) + beta_ * a_new_.head(n)) + velocity_),
                   trial_);
 }
 
@@ -173,7 +181,7 @@ double GeneralizedAlpha::step(double end, double) {
     trial_ = y_;
     trial_yp_ = yp_;
     trial_yp_.head(s_.n_q).setZero();
-    a_new_ = (yp_.segment(s_.u0, n_x_) - alpha_m_ * a_) / (1.0 - alpha_m_); // x'_{n+1} = x'_n
+    a_new_ = (yp_.segment(s_.u0, n_x_) - alpha_m_ * state_.a) / (1.0 - alpha_m_); // x'_{n+1} = x'_n
     velocity_.setZero();
     trial_.segment(s_.mu0, s_.n_mu).setZero();
     update(h);
@@ -189,16 +197,16 @@ double GeneralizedAlpha::step(double end, double) {
   }
   if (!done)
     fail(Reason::step, "Newton's iteration does not converge at the fixed step");
-  y0_ = y_;
-  yp0_ = yp_;
-  t0_ = t_;
+  state_.y0 = y_;
+  state_.yp0 = yp_;
+  state_.t0 = t_;
   t_ = h == end - t_ ? end : t_ + h;
   y_ = trial_;
   yp_ = trial_yp_;
   yp_.head(s_.n_q).setZero();
   e_.residual(t_, y_, yp_, residual_);        // rates of q, for the interpolant
   yp_.head(s_.n_q) -= residual_.head(s_.n_q); // the rows are q' - E(q) (u + G^T mu)
-  a_ = a_new_;
+  state_.a = a_new_;
   e_.accept(t_, y_, yp_);
   ++e_.statistics.steps;
   e_.statistics.last_step = h;
@@ -210,14 +218,14 @@ double GeneralizedAlpha::step(double end, double) {
 void GeneralizedAlpha::interpolate(double t, VectorX& y, VectorX& yp) {
   y = y_;
   yp = yp_;
-  if (t >= t_ || t_ == t0_)
+  if (t >= t_ || t_ == state_.t0)
     return;
-  const double h = t_ - t0_, x = (t - t0_) / h, v = 1.0 - x;
+  const double h = t_ - state_.t0, x = (t - state_.t0) / h, v = 1.0 - x;
   const Index n = s_.lambda0;
-  const VectorX slope = (y_ - y0_) / h;
-  y = v * y0_ + x * y_;
-  y.head(n) += h * x * v * (v * (yp0_ - slope) - x * (yp_ - slope)).head(n);
-  yp = v * yp0_ + x * yp_;
+  const VectorX slope = (y_ - state_.y0) / h;
+  y = v * state_.y0 + x * y_;
+  y.head(n) += h * x * v * (v * (state_.yp0 - slope) - x * (yp_ - slope)).head(n);
+  yp = v * state_.yp0 + x * yp_;
   system::normalise(s_, y);
 }
 

@@ -118,7 +118,13 @@ public:
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   int degree() const override { return counts().last_order; }
   linalg::Statistics statistics() const override;
-  void remember(Archive& a) override { a(rounding, restarts, guard); } // the order is 1 again
+  Memory state() const override { return BdfState{rounding, restarts, guard.state()}; }
+  void set(const Memory& state) override {
+    const auto& from = memory_of<BdfState>(state);
+    rounding = from.rounding;
+    restarts = from.restarts;
+    guard.set(from.guard);
+  }
 
 private:
   const system::Regime& system;

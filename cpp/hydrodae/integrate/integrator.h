@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "hydrodae/core/archive.h"
 #include "hydrodae/core/solver_options.h"
+#include "hydrodae/integrate/memory.h"
 #include "hydrodae/linalg/statistics.h"
 #include "hydrodae/system/jacobian.h"
 
@@ -32,9 +32,10 @@ public:
   virtual bool restart(double, const VectorX&, const VectorX&) { return false; }
 
   /// What the next steps depend on besides t, y and y' at the end of the last: of one-step methods
-  /// the step, its error and the polynomial of the last step. To be restored into an integrator of
-  /// the same system and options that was made with that t, y and y'.
-  virtual void remember(Archive& a) = 0;
+  /// the step, its error and the polynomial of the last step. To be set in an integrator of the
+  /// same system and options that was made with that t, y and y'.
+  virtual Memory state() const = 0;
+  virtual void set(const Memory& state) = 0;
 
   /// y and y' at a time inside the last step. Of y', the velocities' part is always meant to be
   /// read; the rest where the method knows it.

@@ -47,29 +47,30 @@ void evaluate_stages(const system::Regime& s, const RungeKutta& rk, const Vector
 
 void StagePolynomial::accept(double t0, double h, const VectorX& y0, const MatrixX& Z,
                              const MatrixX& rates) {
-  t0_ = t0;
-  h_ = h;
-  y0_ = y0;
-  Z_ = Z;
-  rates_ = rates;
+  state_.t0 = t0;
+  state_.h = h;
+  state_.y0 = y0;
+  state_.Z = Z;
+  state_.rates = rates;
 }
 
 void StagePolynomial::end_at(const VectorX& y) {
-  slope0_ = position_rates(s_, y0_);
-  slope_ = position_rates(s_, y);
+  state_.slope0 = position_rates(s_, state_.y0);
+  state_.slope = position_rates(s_, y);
 }
 
 void StagePolynomial::evaluate_rates(double x, VectorX& yp) const {
   yp.setZero(s_.n);
   for (int i = 0; i < rk_->stages; ++i)
-    yp += stage_weight(*rk_, i, x) * rates_.col(i);
+    yp += stage_weight(*rk_, i, x) * state_.rates.col(i);
 }
 
 void StagePolynomial::between_ends(double x, const VectorX& end, VectorX& y) const {
   const double v = 1.0 - x;
-  y.head(s_.lambda0) = v * y0_.head(s_.lambda0) + x * end.head(s_.lambda0);
-  const VectorX change = (end - y0_).head(s_.n_q);
-  y.head(s_.n_q) += x * v * (v * (h_ * slope0_ - change) - x * (h_ * slope_ - change));
+  y.head(s_.lambda0) = v * state_.y0.head(s_.lambda0) + x * end.head(s_.lambda0);
+  const VectorX change = (end - state_.y0).head(s_.n_q);
+  y.head(s_.n_q) +=
+      x * v * (v * (state_.h * state_.slope0 - change) - x * (state_.h * state_.slope - change));
 }
 
 } // namespace hydrodae::integrate

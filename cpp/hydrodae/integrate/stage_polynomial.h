@@ -25,15 +25,17 @@ public:
   /// Its end, for `between_ends`.
   void end_at(const VectorX& y);
   /// There is no last step any more.
-  void clear() { h_ = 0.0; }
+  void clear() { state_.h = 0.0; }
 
-  bool empty() const { return h_ == 0.0; }
-  int stages() const { return static_cast<int>(Z_.cols()); }
-  double length() const { return h_; } ///< [s]
-  double place(double t) const { return (t - t0_) / h_; }
+  bool empty() const { return state_.h == 0.0; }
+  int stages() const { return static_cast<int>(state_.Z.cols()); }
+  double length() const { return state_.h; } ///< [s]
+  double place(double t) const { return (t - state_.t0) / state_.h; }
   const RungeKutta& rk() const { return *rk_; }
 
-  void evaluate(double x, VectorX& y) const { evaluate_stages(s_, *rk_, y0_, Z_, x, y); }
+  void evaluate(double x, VectorX& y) const {
+    evaluate_stages(s_, *rk_, state_.y0, state_.Z, x, y);
+  }
   /// y' through the stages alone.
   void evaluate_rates(double x, VectorX& yp) const;
   /// Replaces positions and velocities of y where the interpolant is a line: velocities on a line
@@ -41,15 +43,19 @@ public:
   /// falls does so on a parabola. `end`: y at the end of the step.
   void between_ends(double x, const VectorX& end, VectorX& y) const;
 
-  void remember(Archive& a) { a(Z_, rates_, y0_, t0_, h_, slope0_, slope_); }
+  struct State {
+    double t0 = 0.0, h = 0.0; ///< start and length of the step [s]
+    VectorX y0;
+    MatrixX Z, rates;
+    VectorX slope0, slope; ///< rates of the positions at both ends, where it is a line
+  };
+  const State& state() const { return state_; }
+  void set(State state) { state_ = std::move(state); }
 
 private:
   const system::Regime& s_;
   const RungeKutta* rk_ = nullptr;
-  double t0_ = 0.0, h_ = 0.0;
-  VectorX y0_;
-  MatrixX Z_, rates_;
-  VectorX slope0_, slope_; ///< rates of the positions at both ends, where it is a line
+  State state_;
 };
 
 } // namespace hydrodae::integrate

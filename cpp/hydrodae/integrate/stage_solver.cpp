@@ -48,7 +48,8 @@ bool StageSolver::serves(double h) const {
   constexpr double same = 1e-9;
   constexpr double dear = 4.0; // iterations
   return factored_ > 0.0 && std::abs(h - factored_) <= same * h &&
-         (at_once() || (newton_->renewal() >= dear && extra_ < newton_->renewal() && wait_ == 0));
+         (at_once() ||
+          (newton_->renewal() >= dear && extra_ < newton_->renewal() && state_.wait == 0));
 }
 
 bool StageSolver::simplified(double h) {
@@ -64,20 +65,20 @@ bool StageSolver::simplified(double h) {
       factored_ = h;
       start_values(h, extrapolate);
       if (newton_->simplified(from_.t, h, from_.y, from_.w, stages_) == NewtonResult::converged) {
-        last_contraction_ = newton_->contraction;
+        state_.last_contraction = newton_->contraction;
         if (old) {
           extra_ += std::max(0, newton_->iterations - iterations_);
-          wary_ = 0;
+          state_.wary = 0;
         } else {
-          wait_ = std::max(0, wait_ - 1);
-          contraction_ = newton_->contraction;
+          state_.wait = std::max(0, state_.wait - 1);
+          state_.contraction = newton_->contraction;
           iterations_ = newton_->iterations;
         }
-        was_full_ = false;
+        state_.was_full = false;
         return true;
       }
       if (old)
-        wait_ = wary_ = std::min(2 * wary_ + 1, most_wary);
+        state_.wait = state_.wary = std::min(2 * state_.wary + 1, most_wary);
     }
     if (fresh_ && !extrapolate)
       break;
@@ -93,8 +94,8 @@ bool StageSolver::full(double h) {
   start_values(h, false);
   fresh_ = false; // the Jacobian at hand will be that of a stage
   factored_ = 0.0;
-  was_full_ = newton_->full(from_.t, h, from_.y, from_.w, stages_) == NewtonResult::converged;
-  return was_full_;
+  state_.was_full = newton_->full(from_.t, h, from_.y, from_.w, stages_) == NewtonResult::converged;
+  return state_.was_full;
 }
 
 } // namespace hydrodae::integrate

@@ -1,7 +1,6 @@
 #pragma once
 /// The stages of one step by Newton's iteration, with matrices that are kept as long as they serve.
 
-#include "hydrodae/core/archive.h"
 #include "hydrodae/integrate/stage_newton.h"
 #include "hydrodae/integrate/stage_polynomial.h"
 
@@ -32,17 +31,26 @@ public:
   /// A step has ended, or the method starts again: the Jacobian is of another one.
   void next_step() { fresh_ = false; }
 
-  const MatrixX& stages() const { return stages_; }   ///< increments (n, s) that were found
-  bool was_full() const { return was_full_; }         ///< by full Newton
-  double contraction() const { return contraction_; } ///< of the last step with matrices of its own
+  const MatrixX& stages() const { return stages_; } ///< increments (n, s) that were found
+  bool was_full() const { return state_.was_full; } ///< by full Newton
+  double contraction() const {
+    return state_.contraction;
+  } ///< of the last step with matrices of its own
 
   /// Without the matrices: they are made again.
-  void remember(Archive& a) { a(contraction_, last_contraction_, wary_, wait_, was_full_); }
+  struct State {
+    double contraction = 1.0;      ///< of the last step with matrices of its own
+    double last_contraction = 1.0; ///< of the last step
+    int wary = 0, wait = 0; ///< steps to make with new ones after old ones failed; left of them
+    bool was_full = false;
+  };
+  const State& state() const { return state_; }
+  void set(const State& state) { state_ = state; }
 
 private:
   void start_values(double h, bool extrapolate);
   void jacobian(double h, bool extrapolate);
-  bool at_once() const { return last_contraction_ <= 1e-3; }
+  bool at_once() const { return state_.last_contraction <= 1e-3; }
   bool serves(double h) const;
 
   linalg::Equations& e_;
@@ -51,14 +59,11 @@ private:
   StageNewton* newton_ = nullptr;
   MatrixX stages_;
   VectorX guess_, guess_rate_;
-  bool fresh_ = false;            ///< the Jacobian is of this step
-  double factored_ = 0.0;         ///< step of the matrices at hand [s]
-  double contraction_ = 1.0;      ///< of the last step with matrices of its own
-  int iterations_ = 0;            ///< that this step took
-  double last_contraction_ = 1.0; ///< of the last step
-  double extra_ = 0.0;            ///< iterations that old matrices have cost since
-  int wary_ = 0, wait_ = 0; ///< steps to make with new ones after old ones failed; left of them
-  bool was_full_ = false;
+  bool fresh_ = false;    ///< the Jacobian is of this step
+  double factored_ = 0.0; ///< step of the matrices at hand [s]
+  int iterations_ = 0;    ///< that this step took
+  double extra_ = 0.0;    ///< iterations that old matrices have cost since
+  State state_;
 };
 
 } // namespace hydrodae::integrate

@@ -91,25 +91,30 @@ std::string worst(const VectorX& values, const std::vector<std::string>& names);
 class ProgressGuard {
 public:
   ProgressGuard(double start, double end, double time_scale)
-      : checked_(start), end_(end), time_scale_(time_scale) {}
+      : state_{0, start}, end_(end), time_scale_(time_scale) {}
   template <class Diagnosis> void after_step(double t, Diagnosis&& diagnosis) {
-    if (++steps_ < watch)
+    if (++state_.steps < watch)
       return;
-    const double gained = t - checked_;
+    const double gained = t - state_.checked;
     if (gained < least * end_ && gained < watch * least * time_scale_ && t < end_)
       fail(t, gained, diagnosis());
-    steps_ = 0;
-    checked_ = t;
+    state_.steps = 0;
+    state_.checked = t;
   }
-  void remember(Archive& a) { a(steps_, checked_); }
+  struct State {
+    long steps = 0;       ///< since the last look
+    double checked = 0.0; ///< time of it [s]
+  };
+  const State& state() const { return state_; }
+  void set(const State& state) { state_ = state; }
 
 private:
   static constexpr long watch = 5000;
   static constexpr double least =
       1e-6; // of the whole run in so many steps, of a body's time in one
   [[noreturn]] static void fail(double t, double gained, const std::string& diagnosis);
-  long steps_ = 0;
-  double checked_, end_, time_scale_;
+  State state_;
+  double end_, time_scale_;
 };
 
 } // namespace hydrodae::linalg

@@ -1,6 +1,4 @@
 #pragma once
-#include "hydrodae/core/archive.h"
-
 namespace hydrodae::linalg {
 
 /// Operations for each entry of the Jacobian, as measured: of a residual, and of the Jacobian
@@ -18,11 +16,6 @@ struct Statistics {
   double factor_work = 0.0; ///< operations of the factors of Newton's matrices
   double last_step = 0.0;   ///< [s]
   int last_order = 0;
-
-  void remember(Archive& a) {
-    a(steps, residual_calls, jacobian_calls, newton_iterations, error_test_failures,
-      convergence_failures, factor_work, last_step, last_order);
-  }
 
   /// Adds the counts of another part of the same run; the last step stays.
   Statistics& operator+=(const Statistics& other) {

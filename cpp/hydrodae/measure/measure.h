@@ -13,7 +13,6 @@ namespace hydrodae::measure {
 /// Nodes on [0, 1], the ends among them, and weights, by which the work over one step is summed.
 struct Quadrature {
   std::vector<double> nodes{0.0, 0.5, 1.0}, weights{1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
-  void remember(Archive& a) { a(nodes, weights); }
 };
 
 /// Energy that is missing, and what it is to be compared with [J].
@@ -22,7 +21,6 @@ struct Balance {
   double exchanged = 0.0;
   double start = 0.0;   ///< kinetic energy of its bodies at the start
   double kinetic = 0.0; ///< the largest of it so far
-  void remember(Archive& a) { a(error, exchanged, start, kinetic); }
 };
 
 /// Each accepted step in order: `begin`, the samples in it, `accept` or `take_back`.
@@ -35,7 +33,7 @@ public:
   Measure(const system::Regime& system, double t0, const VectorX& y, const VectorX& yp);
 
   /// From now on (between two steps) the work is summed by this rule; Simpson's at first.
-  void set_quadrature(const Quadrature& rule) { rule_ = rule; }
+  void set_quadrature(const Quadrature& rule) { state_.rule = rule; }
 
   /// Takes the accepted step that ends at `t`: balance and turns are those of its end.
   /// @param idle `at` gives no reactions inside the step, where they do no work
@@ -53,7 +51,7 @@ public:
   void accept();
 
   /// Forgets the step begun instead: all is as at its start.
-  void take_back() { now_ = before_; }
+  void take_back() { state_.now = before_; }
 
   /// Rows of the system came or went at the end of the last accepted step; y, y' from there on.
   /// What the kinetic energy changed by otherwise is left as an error of the balance.
@@ -61,21 +59,22 @@ public:
   void restart(const VectorX& y, const VectorX& yp, const std::optional<double>& work);
 
   /// All motions at the end of the last step, angles followed over turns.
-  const system::Turns& turns() const { return now_.turns; }
+  const system::Turns& turns() const { return state_.now.turns; }
 
   /// Of the scene at the end of the last step, and at its start.
-  const Balance& whole() const { return now_.whole; }
+  const Balance& whole() const { return state_.now.whole; }
   const Balance& whole_before() const { return before_.whole; }
 
   /// The same for each mechanism by itself, with all that acts on it from outside; none where there
   /// is but one.
-  const std::vector<Balance>& mechanisms() const { return now_.mechanisms; }
+  const std::vector<Balance>& mechanisms() const { return state_.now.mechanisms; }
   const std::vector<Balance>& mechanisms_before() const { return before_.mechanisms; }
 
   /// Largest |balance error| so far over the largest energy exchanged so far, both taken at the
   /// ends of steps [-].
   double relative_balance_error() const {
-    return now_.whole.exchanged > 0.0 ? now_.largest_error / now_.whole.exchanged : 0.0;
+    return state_.now.whole.exchanged > 0.0 ? state_.now.largest_error / state_.now.whole.exchanged
+                                            : 0.0;
   }
 
   /// From `time` [s] on means are taken, see `absorbed`; by default from the start.
@@ -91,8 +90,8 @@ public:
 
   // For samples inside the step begun:
   /// Start and end of that step [s].
-  double start() const { return t_; }
-  double end() const { return end_; }
+  double start() const { return state_.t; }
+  double end() const { return state_.end; }
   /// What is observed at a state in it, and from what the work there is counted.
   Observer& observer() { return observer_; }
   const Observer& observer() const { return observer_; }
@@ -101,10 +100,6 @@ public:
   /// Kinetic energies gained there minus the work of all forces [J].
   double balance_error(const std::vector<double>& work) const;
 
-  /// Between two steps.
-  void remember(Archive& a);
-
-private:
   struct Sums { ///< at the end of the step begun
     Balance whole;
     double largest_error = 0.0; ///< of the whole [J]
@@ -112,10 +107,20 @@ private:
     std::vector<double> mechanism_kinetic; ///< [J]
     system::Turns turns;
     std::vector<double> mean_work; ///< at the time from which means are taken; empty: zero [J]
-    void remember(Archive& a) {
-      a(whole, largest_error, mechanisms, mechanism_kinetic, turns, mean_work);
-    }
   };
+  struct State {
+    double t = 0.0, end = 0.0; ///< start and end of the step [s]
+    /// Per component, at t; with several mechanisms then per load and per mechanism its rows.
+    std::vector<double> power, work;
+    Sums now;
+    Quadrature rule;
+  };
+
+  /// Between two steps.
+  const State& state() const { return state_; }
+  void set(State state);
+
+private:
   void add_work(double weight, const std::vector<double>& powers);
   std::vector<double> work_inside(double x) const;
   void take_mean(const Interpolant& at);
@@ -127,14 +132,11 @@ private:
 
   const system::Regime& s_;
   Observer observer_;
-  double t_, end_; ///< start and end of the step [s]
-  /// Per component, at t_; with several mechanisms then per load and per mechanism its rows.
-  std::vector<double> power_, work_;
+  State state_;
   std::vector<std::vector<double>> powers_;  ///< at the nodes of the step; empty: by its stages
   std::vector<double> end_power_, end_work_; ///< at the end of the step
   double mean_from_ = 0.0;                   ///< [s]
-  Sums now_, before_;
-  Quadrature rule_;
+  Sums before_;                              ///< at the start of the step begun
   VectorX y_, yp_;
 };
 

@@ -5,7 +5,7 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
-#include "hydrodae/io/memory_file.h"
+#include "hydrodae/io/byte_file.h"
 #include "hydrodae/io/output_place.h"
 #include "hydrodae/io/sha256.h"
 
@@ -13,18 +13,8 @@ namespace hydrodae::run {
 
 namespace {
 
-constexpr const char *of_state = "state", *of_output = "output", *of_second = "second";
-
-/// SHA-256 of all numbers: damage is reported before a run goes on from it.
-std::string digest_of_numbers(const Checkpoint& checkpoint) {
-  State output;
-  output.memory = checkpoint.output;
-  return io::sha256_of_text(checkpoint.state.bytes() + output.bytes() +
-                            (checkpoint.second ? checkpoint.second->bytes() : ""));
-}
-
 io::Texts identity(const model::Scene& scene) {
-  return {{"format", "hydrodae-checkpoint 1"},
+  return {{"format", "hydrodae-checkpoint 2"},
           {"version", HYDRODAE_VERSION},
           {"case_text", scene.text},
           {"case_overrides", joined(scene.overrides, "\n")},
@@ -68,18 +58,11 @@ std::string checkpoint_name(const std::string& results) {
 
 void write_checkpoint(const std::string& results, const model::Scene& scene,
                       const Checkpoint& checkpoint) {
-  io::MemoryFile file;
-  file.texts = identity(scene);
-  file.texts["scene"] = checkpoint.state.scene;
-  file.texts["sha256"] = digest_of_numbers(checkpoint);
-  file.groups[of_state] = checkpoint.state.numbers();
-  file.groups[of_output] = checkpoint.output;
-  if (checkpoint.second)
-    file.groups[of_second] = checkpoint.second->numbers();
-  file.texts["verify"] = checkpoint.verify;
-  file.texts["stopped"] = checkpoint.stopped;
+  io::ByteFile file{identity(scene), to_bytes(checkpoint)};
+  file.texts["time"] = number_text(checkpoint.state.time);
+  file.texts["sha256"] = io::sha256_of_text(file.bytes); // damage is reported before a run goes on
   try {
-    io::write_memory(checkpoint_name(results), file);
+    io::write_bytes(checkpoint_name(results), file);
   } catch (const CaseError& error) {
     throw SolverError(checkpoint.state.time, {Reason::output, error.what()});
   }
@@ -90,17 +73,13 @@ Checkpoint read_checkpoint(const std::string& results, const model::Scene& scene
   if (!std::filesystem::exists(path))
     throw CaseError(path + ": does not exist: there is nothing to resume; a run with --checkpoint "
                            "leaves it when it is cut off");
-  io::MemoryFile file = io::read_memory(path);
+  const io::ByteFile file = io::read_bytes(path);
   check_identity(path, file.texts, scene);
   try {
-    Checkpoint out{State::from_numbers(std::move(file.groups[of_state]), file.texts["scene"]),
-                   std::move(file.groups[of_output]), std::nullopt, file.texts["verify"],
-                   file.texts["stopped"]};
-    if (file.groups.contains(of_second))
-      out.second = State::from_numbers(std::move(file.groups[of_second]), out.state.scene);
-    if (digest_of_numbers(out) == file.texts["sha256"])
-      return out;
-  } catch (const Error&) { // parts of it are missing
+    const auto sum = file.texts.find("sha256");
+    if (sum != file.texts.end() && sum->second == io::sha256_of_text(file.bytes))
+      return from_bytes<Checkpoint>(file.bytes);
+  } catch (const Error&) { // of other bytes
   }
   throw CaseError(path + ": cannot be resumed: it is damaged");
 }

@@ -11,8 +11,10 @@ namespace hydrodae::run {
 
 struct Checkpoint {
   State state;
-  Memory output;               ///< what the writer of the results needs besides
+  std::string output;          ///< bytes: what the writer of the results needs besides
   std::optional<State> second; ///< of the run that the error is estimated by, while it goes on
+  std::string comparison;      ///< bytes: what the two runs have been compared by so far
+  long next = 0;               ///< sample of the second run
   std::string verify;          ///< its method, as it was asked for
   std::string stopped;         ///< why it did not reach its end
 };

@@ -190,10 +190,10 @@ Controllers::Controllers(const model::Scene& scene, const system::Regime& regime
       one.columns.push_back(find_column(channels, input.name));
     for (const control::Terminal& output : terminals.outputs) {
       one.inputs.push_back(&input_named(inputs, output.name));
-      one.out.push_back(output.start);
+      one.state.out.push_back(output.start);
     }
     one.in.resize(one.columns.size());
-    one.swings.resize(one.out.size());
+    one.state.swings.resize(one.state.out.size());
     one.law = make_law(c, terminals, regime);
     if (one.law->hears_crossings())
       one.crossing = std::make_unique<events::Crossing>(regime, terminals.inputs.front().name);
@@ -208,7 +208,8 @@ Controllers::Controllers(const model::Scene& scene, const system::Regime& regime
 double Controllers::next_time() const {
   double first = INFINITY;
   for (const One& one : all_)
-    first = std::min({first, one.next, one.late.empty() ? INFINITY : one.late.front().first});
+    first = std::min(
+        {first, one.state.next, one.state.late.empty() ? INFINITY : one.state.late.front().first});
   return first;
 }
 
@@ -218,7 +219,7 @@ double Controllers::limit(double end) const {
 }
 
 bool Controllers::One::is_due(double t, bool event) const {
-  return reached(next, t) || (event && law->hears_events()) || law->is_due();
+  return reached(state.next, t) || (event && law->hears_events()) || law->is_due();
 }
 
 bool Controllers::is_due(double t, bool event) const {
@@ -257,13 +258,13 @@ void Controllers::One::sample(double t, std::span<const double> row) {
     in[k] = terminals.inputs[k].to_own.back(row[columns[k]]);
   using Clock = std::chrono::steady_clock;
   const Clock::time_point before = Clock::now();
-  law->sample(t, in, out);
+  law->sample(t, in, state.out);
   if (cost.calls++ > 0) // the first waits for another program to be there
     cost.time += std::chrono::duration<double>(Clock::now() - before).count();
   std::vector<double> answer; // in the units of the scene
-  for (std::size_t k = 0; k < out.size(); ++k)
+  for (std::size_t k = 0; k < state.out.size(); ++k)
     try {
-      answer.push_back(terminals.outputs[k].to_own.of(out[k]));
+      answer.push_back(terminals.outputs[k].to_own.of(state.out[k]));
       check_value(*inputs[k], answer[k]);
     } catch (const CaseError& error) {
       throw SolverError(t,
@@ -271,27 +272,27 @@ void Controllers::One::sample(double t, std::span<const double> row) {
                          "controllers/" + name});
     }
   for (std::size_t k = 0; k < answer.size(); ++k)
-    swings[k].add(answer[k]);
-  if (reached(next, t))
-    ++count;
+    state.swings[k].add(answer[k]);
+  if (reached(state.next, t))
+    ++state.count;
   const double own = law->next_time(t);
-  next = std::isnan(own) ? static_cast<double>(count) * period : own;
-  late.emplace_back(t + delay, std::move(answer));
+  state.next = std::isnan(own) ? static_cast<double>(state.count) * period : own;
+  state.late.emplace_back(t + delay, std::move(answer));
 }
 
 /// @returns whether an input has another value now
 bool Controllers::One::write(double t) {
   bool changed = false;
-  for (; !late.empty() && reached(late.front().first, t); late.pop_front())
+  for (; !state.late.empty() && reached(state.late.front().first, t); state.late.pop_front())
     for (std::size_t k = 0; k < inputs.size(); ++k)
-      changed = inputs[k]->set(t, late.front().second[k]) || changed;
+      changed = inputs[k]->set(t, state.late.front().second[k]) || changed;
   return changed;
 }
 
 std::string Controllers::runaway() const {
   for (const One& one : all_)
-    for (std::size_t k = 0; k < one.swings.size(); ++k)
-      if (const SwingWatch::Growth g = one.swings[k].growth(); g.swings > 0)
+    for (std::size_t k = 0; k < one.state.swings.size(); ++k)
+      if (const SwingWatch::Growth g = one.state.swings[k].growth(); g.swings > 0)
         return "controller " + in_quotes(one.name) + " feeds the motion: over its last " +
                std::to_string(g.swings) + " swings what it holds " + one.inputs[k]->name +
                " at has grown from " + rounded_text(g.from) + " to " + rounded_text(g.to) + " " +
@@ -301,10 +302,12 @@ std::string Controllers::runaway() const {
   return "";
 }
 
-void Controllers::fill(double*& out) const {
+std::vector<double> Controllers::held() const {
+  std::vector<double> out;
   for (const One& one : all_)
     for (const Input* input : one.inputs)
-      *out++ = *input->value;
+      out.push_back(*input->value);
+  return out;
 }
 
 std::vector<Controllers::Cost> Controllers::costs() const {
@@ -333,15 +336,26 @@ void Controllers::finish(const std::string& error) {
     one.law->finish(error);
 }
 
-void Controllers::One::remember(Archive& a) {
-  a(next, count, out, late, swings, *law);
-  if (crossing)
-    a(*crossing);
+Controllers::State Controllers::state() {
+  State out;
+  for (One& one : all_) {
+    out.push_back(one.state);
+    out.back().law = one.law->state();
+    if (one.crossing)
+      out.back().crossing = one.crossing->state();
+  }
+  return out;
 }
 
-void Controllers::remember(Archive& a) {
-  for (One& one : all_)
-    one.remember(a);
+void Controllers::set(State state) {
+  if (state.size() != all_.size())
+    throw Error("the state has other controllers than the scene");
+  for (std::size_t k = 0; k < all_.size(); ++k) {
+    all_[k].state = std::move(state[k]);
+    all_[k].law->set(all_[k].state.law);
+    if (all_[k].crossing)
+      all_[k].crossing->set(all_[k].state.crossing);
+  }
 }
 
 } // namespace hydrodae::run

@@ -52,8 +52,6 @@ public:
   Controllers(const model::Scene& scene, const system::Regime& regime,
               const std::vector<Channel>& channels, std::vector<Input>& inputs);
 
-  bool empty() const { return all_.empty(); }
-
   /// Where a step is to end that would go on until `end`: there, or at the first instant before it
   /// at which something is due [s].
   double limit(double end) const;
@@ -75,7 +73,7 @@ public:
   std::string runaway() const;
 
   /// What each holds, in the order of `held_channels`.
-  void fill(double*& out) const;
+  std::vector<double> held() const;
 
   /// Wall time of the calls, where a controller is not one of the kernel's own.
   struct Cost {
@@ -90,7 +88,21 @@ public:
 
   void restored(double t);
   void finish(const std::string& error);
-  void remember(Archive& a);
+
+  struct OneState {
+    double next = 0.0;                                       ///< sampling instant [s]
+    long count = 0;                                          ///< of sampling instants
+    std::vector<double> out;                                 ///< answers in its own units
+    std::deque<std::pair<double, std::vector<double>>> late; ///< answers that do not hold yet
+    std::vector<SwingWatch> swings;                          ///< of each answer
+    std::string law;                                         ///< bytes
+    events::Crossing::State crossing;
+  };
+  using State = std::vector<OneState>;
+  State state();
+
+  /// Throws Error for the state of other controllers.
+  void set(State state);
 
   /// The next sampling instant of any controller; infinite: none [s].
   double next_time() const;
@@ -103,19 +115,15 @@ private:
     std::unique_ptr<control::Law> law;
     std::vector<std::size_t> columns; ///< that it reads
     std::vector<Input*> inputs;       ///< that it writes
-    double next = 0.0;                ///< sampling instant [s]
-    long count = 0;                   ///< of sampling instants
     control::Terminals terminals;
-    std::vector<double> in, out;                             ///< in its own units
-    std::vector<SwingWatch> swings;                          ///< of each answer
-    std::deque<std::pair<double, std::vector<double>>> late; ///< answers that do not hold yet
+    std::vector<double> in; ///< in its own units
+    OneState state;         ///< but for what the law and the crossing keep
     Cost cost;
     std::unique_ptr<events::Crossing> crossing; ///< null: it hears no crossing
 
     bool is_due(double t, bool event) const;
     void sample(double t, std::span<const double> row);
     bool write(double t);
-    void remember(Archive& a);
   };
 
   std::vector<One> all_;

@@ -36,7 +36,7 @@ double guard_at_singular_poses(const SolverOptions& options) {
                             : std::min(usual, 1e-2 * std::sqrt(std::max(options.rtol, 1e-6)));
 }
 
-class EnergyGuard final : public Guard {
+class EnergyGuard final : public Follower {
 public:
   explicit EnergyGuard(const GuardInputs& in)
       : s_(in.system), rtol_(in.options.rtol), part_(in.options.energy_guard.value_or(usual)),
@@ -44,7 +44,7 @@ public:
         guided_(system::guided_mechanisms(in.system)), poses_(in.poses) {}
 
   /// The balance of the scene, then that of each mechanism.
-  void accept(const Step& step) override {
+  void judge(const Step& step) override {
     const measure::Measure& measure = step.measure;
     const std::vector<measure::Balance>& mechanisms = measure.mechanisms();
     judge(step, -1, measure.whole().error, believed(measure.whole_before(), measure.whole()));
@@ -156,7 +156,7 @@ double energy_of_errors(const system::Regime& s, double rtol, int mechanism) {
 }
 
 /// A part of zero switches it off.
-std::unique_ptr<Guard> make_energy_guard(const GuardInputs& in) {
+std::unique_ptr<Follower> make_energy_guard(const GuardInputs& in) {
   if (in.options.energy_guard == 0.0)
     return nullptr;
   return std::make_unique<EnergyGuard>(in);

@@ -7,6 +7,7 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/run/guards.h"
+#include "hydrodae/run/state.h"
 #include "hydrodae/system/mechanisms.h"
 #include "hydrodae/system/residual.h"
 
@@ -20,23 +21,25 @@ constexpr double allowed_jump = 0.3; ///< of the largest kinetic energy so far
 constexpr double window = 3e-3;      ///< of the shortest time scale of a body
 
 /// Both levels of the constraints: in formulations that do not keep them they drift apart.
-class DriftGuard final : public Guard {
+class DriftGuard final : public Follower {
 public:
-  DriftGuard(const system::Regime& s, PoseWatch& poses) : s_(s), poses_(poses) { restart(); }
+  DriftGuard(const system::Regime& s, PoseWatch& poses) : s_(s), poses_(poses) { make(); }
 
   /// Gaps above a hundredth of their scale end the run. Above 1e-5 those of positions do so at a
   /// singular pose: loops that do not close pass it at a distance of sqrt(gap), which turns the
   /// motion into another branch.
-  void accept(const Step& step) override {
+  void judge(const Step& step) override {
     const Index worst = widest(step);
     if (worst < rows_->system.sigma0 &&
         std::abs(rows_->residual[worst]) > allowed_gap_at_singular_pose &&
         poses_.near_singular(step))
       fail(step.end, worst, ", at a singular pose, where the motion may go on in another branch");
   }
-  void restart() override { rows_ = std::make_unique<Rows>(s_); }
+  void restart(const Restart&) override { make(); }
 
 private:
+  void make() { rows_ = std::make_unique<Rows>(s_); }
+
   /// The rows that hold now.
   struct Rows {
     explicit Rows(const system::Regime& s)
@@ -87,7 +90,7 @@ private:
 /// In a singular pose of a closed loop the motion may jump to another branch: the velocities change
 /// at once, though nothing strikes. Measured: 0.6 to 3 of the largest kinetic energy of a mechanism
 /// within 0.003 time scales on a wrong branch, below 0.01 otherwise.
-class BranchGuard final : public Guard {
+class BranchGuard final : public Follower {
 public:
   explicit BranchGuard(const system::Regime& s)
       : s_(s), mass_(s.n_u), mechanism_(static_cast<std::size_t>(s.n_u)) {
@@ -100,29 +103,31 @@ public:
         mechanism_[static_cast<std::size_t>(b.u0 - s_.u0 + k)] = std::max(b.mechanism, 0);
       }
     }
-    largest_ = energies(s_.scale.segment(s_.u0, s_.n_u)); // a start from rest is no jump
+    state_.largest = energies(s_.scale.segment(s_.u0, s_.n_u)); // a start from rest is no jump
   }
 
-  void accept(const Step& step) override {
+  void judge(const Step& step) override {
     const double t = step.end;
     const VectorX u = step.y.segment(s_.u0, s_.n_u);
-    while (past_.size() > 1 && past_[1].first <= t - window_)
-      past_.pop_front();
-    largest_ = largest_.cwiseMax(energies(u));
+    while (state_.past.size() > 1 && state_.past[1].first <= t - window_)
+      state_.past.pop_front();
+    state_.largest = state_.largest.cwiseMax(energies(u));
     // A longer step says nothing about a jump.
-    if (!past_.empty() && t - past_.front().first <= 2.0 * window_) {
-      const double jump =
-          energies(u - past_.front().second).cwiseQuotient(largest_.cwiseMax(1e-300)).maxCoeff();
+    if (!state_.past.empty() && t - state_.past.front().first <= 2.0 * window_) {
+      const double jump = energies(u - state_.past.front().second)
+                              .cwiseQuotient(state_.largest.cwiseMax(1e-300))
+                              .maxCoeff();
       if (jump > allowed_jump)
         fail(step, jump);
     }
-    past_.emplace_back(t, u);
+    state_.past.emplace_back(t, u);
   }
 
   /// The velocities have jumped for a reason: something struck.
-  void restart() override { past_.clear(); }
+  void restart(const Restart&) override { state_.past.clear(); }
 
-  void remember(Archive& a) override { a(largest_, past_); }
+  void save(State& out) const override { out.guards.branch = state_; }
+  void set(const State& from) override { state_ = from.guards.branch; }
 
 private:
   /// (n_mechanisms,) Kinetic energy of each mechanism at the velocities u [J].
@@ -137,8 +142,8 @@ private:
     throw SolverError(
         step.end,
         {Reason::branch,
-         "the velocities jumped within " + number_text(step.end - past_.front().first) + " s (" +
-             rounded_text(jump) +
+         "the velocities jumped within " + number_text(step.end - state_.past.front().first) +
+             " s (" + rounded_text(jump) +
              " of the largest kinetic energy), though nothing struck: at a singular pose the "
              "motion left its branch",
          "",
@@ -149,11 +154,10 @@ private:
   }
 
   const system::Regime& s_;
-  VectorX mass_;                                ///< (n_u,) of each velocity
-  std::vector<int> mechanism_;                  ///< (n_u,) of each velocity
-  double window_ = HUGE_VAL;                    ///< [s]
-  VectorX largest_;                             ///< kinetic energy by mechanism [J]
-  std::deque<std::pair<double, VectorX>> past_; ///< times in the window and the velocities there
+  VectorX mass_;               ///< (n_u,) of each velocity
+  std::vector<int> mechanism_; ///< (n_u,) of each velocity
+  double window_ = HUGE_VAL;   ///< [s]
+  BranchState state_;
 };
 
 } // namespace
@@ -162,14 +166,14 @@ bool minds_drift(const system::Regime& s, const SolverOptions& options) {
   return s.formulation != system::Formulation::stabilised && !options.force;
 }
 
-std::unique_ptr<Guard> make_drift_guard(const GuardInputs& in) {
+std::unique_ptr<Follower> make_drift_guard(const GuardInputs& in) {
   if (!minds_drift(in.system, in.options))
     return nullptr;
   return std::make_unique<DriftGuard>(in.system, in.poses);
 }
 
 /// Only scenes with loops have singular poses to fear.
-std::unique_ptr<Guard> make_branch_guard(const GuardInputs& in) {
+std::unique_ptr<Follower> make_branch_guard(const GuardInputs& in) {
   if (!in.options.branch_guard || !has_loop(in.system))
     return nullptr;
   return std::make_unique<BranchGuard>(in.system);

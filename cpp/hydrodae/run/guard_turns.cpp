@@ -8,6 +8,7 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/run/guards.h"
+#include "hydrodae/run/state.h"
 #include "hydrodae/system/elements.h"
 
 namespace hydrodae::run {
@@ -17,12 +18,12 @@ namespace {
 constexpr double borne = 100.0; ///< tolerances; a sound error test bears some
 
 /// Ends the run where a load follows such a vector and there is no axis.
-class TurnGuard final : public Guard {
+class TurnGuard final : public Follower {
 public:
   TurnGuard(const system::Regime& s, double rtol)
       : s_(s), allowed_(borne * rtol), ws_(s), axes_(3 * s.system.rotations.size(), 0.0) {}
 
-  void accept(const Step& step) override {
+  void judge(const Step& step) override {
     const system::Turns& turns = step.measure.turns();
     std::vector<bool> lost(s_.system.rotations.size());
     bool any = false;
@@ -34,7 +35,8 @@ public:
     if (any)
       judge(step, turns, lost);
   }
-  void remember(Archive& a) override { a(axes_); }
+  void save(State& out) const override { out.guards.axes = axes_; }
+  void set(const State& from) override { axes_ = from.guards.axes; }
 
 private:
   /// Follows the axis up to half a turn. @returns whether the rotation has left it beyond
@@ -102,7 +104,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<Guard> make_turn_guard(const GuardInputs& in) {
+std::unique_ptr<Follower> make_turn_guard(const GuardInputs& in) {
   for (const system::ElementList& list : in.system.elements)
     for (const system::PortData& port : list.ports)
       if (port.followed >= 0)

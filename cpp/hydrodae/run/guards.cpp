@@ -7,6 +7,7 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/linalg/saddle_point.h"
+#include "hydrodae/run/state.h"
 #include "hydrodae/system/dropped_rows.h"
 
 namespace hydrodae::run {
@@ -14,14 +15,14 @@ namespace hydrodae::run {
 namespace {
 
 /// Constraint rows that the assembly left out: their gaps prove whether they follow from others.
-class DroppedRowsGuard final : public Guard {
+class DroppedRowsGuard final : public Follower {
 public:
   DroppedRowsGuard(const system::Regime& s, const SolverOptions& options)
       : rows_(s), allowed_(10.0 * options.tolerance_assembly +
                            (s.formulation == system::Formulation::stabilised ? 100.0 * options.rtol
                                                                              : drifted)) {}
   bool empty() const { return rows_.empty(); }
-  void accept(const Step& step) override {
+  void judge(const Step& step) override {
     const system::DroppedRows::Gap worst = rows_.largest(step.end, step.y);
     if (worst.part <= allowed_)
       return;
@@ -50,7 +51,7 @@ private:
 /// Positions so large that their rounding hides what the tolerance asks for: steps shrink there
 /// without end, and no shorter one is better. It is held against the sizes of the bodies, since the
 /// scale of what has not moved yet is next to nothing.
-class RoundingGuard final : public Guard {
+class RoundingGuard final : public Follower {
 public:
   RoundingGuard(const system::Regime& s, double rtol)
       : s_(s), size_(VectorX::Constant(s.lambda0, INFINITY)) {
@@ -66,7 +67,7 @@ public:
                                  size_.segment<3>(place).setConstant(times * length);
                                });
   }
-  void accept(const Step& step) override {
+  void judge(const Step& step) override {
     Index i = 0;
     const double worst = step.y.head(s_.lambda0).cwiseAbs().cwiseQuotient(size_).maxCoeff(&i);
     if (worst <= 1.0)
@@ -90,12 +91,12 @@ private:
 };
 
 /// Friction that its joint presses, against Painleve's paradox.
-class JamGuard final : public Guard {
+class JamGuard final : public Follower {
 public:
   JamGuard(const system::Regime& s, const system::Pattern& pattern) : s_(s), pattern_(pattern) {
-    restart();
+    make();
   }
-  void accept(const Step& step) override {
+  void judge(const Step& step) override {
     if (step.event)
       return; // other rows hold from there on, which the switches look at
     y_ = step.y;
@@ -104,12 +105,14 @@ public:
     if (!saddle_->jam().empty())
       throw SolverError(step.end, {Reason::friction, saddle_->jam()});
   }
-  void restart() override {
+  void restart(const Restart&) override { make(); }
+
+private:
+  void make() {
     equations_ = std::make_unique<linalg::Equations>(s_, pattern_, 1.0);
     saddle_ = std::make_unique<linalg::SaddlePoint>(*equations_);
   }
 
-private:
   const system::Regime& s_;
   const system::Pattern& pattern_;
   std::unique_ptr<linalg::Equations> equations_;
@@ -117,7 +120,7 @@ private:
   VectorX y_, yp_;
 };
 
-std::unique_ptr<Guard> make_dropped_rows_guard(const GuardInputs& in) {
+std::unique_ptr<Follower> make_dropped_rows_guard(const GuardInputs& in) {
   auto guard = std::make_unique<DroppedRowsGuard>(in.system, in.options);
   if (guard->empty())
     return nullptr;
@@ -125,13 +128,13 @@ std::unique_ptr<Guard> make_dropped_rows_guard(const GuardInputs& in) {
 }
 
 /// Steps of a fixed length do not shrink.
-std::unique_ptr<Guard> make_rounding_guard(const GuardInputs& in) {
+std::unique_ptr<Follower> make_rounding_guard(const GuardInputs& in) {
   if (in.options.step > 0.0 || in.system.lambda0 == 0)
     return nullptr;
   return std::make_unique<RoundingGuard>(in.system, in.options.rtol);
 }
 
-std::unique_ptr<Guard> make_jam_guard(const GuardInputs& in) {
+std::unique_ptr<Follower> make_jam_guard(const GuardInputs& in) {
   for (const system::ElementList& list : in.system.elements)
     if (list.laws->shape.n_reaction > 0)
       return std::make_unique<JamGuard>(in.system, in.pattern);
@@ -155,25 +158,37 @@ Guards::Guards(const system::Regime& system, const system::Pattern& pattern,
              energy_minds_singular_poses(options) || minds_drift(system, options)) {
   for (const auto make : {make_energy_guard, make_rounding_guard, make_dropped_rows_guard,
                           make_branch_guard, make_drift_guard, make_jam_guard, make_turn_guard})
-    if (std::unique_ptr<Guard> guard = make({system, pattern, options, poses_}))
+    if (std::unique_ptr<Follower> guard = make({system, pattern, options, poses_}))
       list_.push_back(std::move(guard));
 }
 
-void Guards::restart(const VectorX& y) {
-  poses_.restart(y);
-  for (const std::unique_ptr<Guard>& guard : list_)
-    guard->restart();
+void Guards::judge(const Step& step) {
+  for (const std::unique_ptr<Follower>& guard : list_)
+    guard->judge(step);
+}
+
+void Guards::restart(const Restart& from) {
+  poses_.restart(from.y);
+  for (const std::unique_ptr<Follower>& guard : list_)
+    guard->restart(from);
 }
 
 void Guards::finish(const Step& step) {
-  for (const std::unique_ptr<Guard>& guard : list_)
+  for (const std::unique_ptr<Follower>& guard : list_)
     guard->finish(step);
 }
 
-void Guards::remember(Archive& a) {
-  a(poses_);
-  for (const std::unique_ptr<Guard>& guard : list_)
-    a(*guard);
+void Guards::save(State& out) const {
+  out.guards.poses = poses_.state();
+  for (const std::unique_ptr<Follower>& guard : list_)
+    guard->save(out);
+}
+
+void Guards::set(const State& from) {
+  restart({from.time, from.y, from.yp, {}});
+  poses_.set(from.guards.poses);
+  for (const std::unique_ptr<Follower>& guard : list_)
+    guard->set(from);
 }
 
 } // namespace hydrodae::run

@@ -76,16 +76,32 @@ SceneTraits find_traits(const system::Regime& s, const system::Pattern& pattern,
   return out;
 }
 
+std::string in_words(const MethodChange& change) {
+  switch (change.cause) {
+  case MethodChange::Cause::stop:
+    return change.method + " gave up: " + change.reason;
+  case MethodChange::Cause::guard:
+    return "a step of " + change.method + " was refused: " + change.reason;
+  case MethodChange::Cause::cost:
+    break;
+  }
+  return change.reason;
+}
+
+std::string with_time(const MethodChange& change) {
+  return change.method + " at t = " + number_text(change.time) + " s: " + change.reason;
+}
+
 MethodChoice::MethodChoice(std::string method) { order_.methods.push_back(std::move(method)); }
 
 MethodChoice::MethodChoice(MethodOrder order) : order_(std::move(order)) {}
 
 void MethodChoice::next(const MethodChange& change) {
-  changes_.push_back(change);
-  ++at_;
-  short_steps_ = weighed_steps_ = 0;
-  weighed_time_ = turn_steps_ = 0.0;
-  again_ = turns_ > 0;
+  state_.changes.push_back(change);
+  ++state_.at;
+  state_.short_steps = state_.weighed_steps = 0;
+  state_.weighed_time = state_.turn_steps = 0.0;
+  state_.again = state_.turns > 0;
 }
 
 MethodChange MethodChoice::after(const SolverError& error, MethodChange::Cause cause) const {
@@ -95,7 +111,7 @@ MethodChange MethodChoice::after(const SolverError& error, MethodChange::Cause c
   Halt halt = error.halt;
   halt.advice.clear(); // it names other methods
   halt.what = "no method of \"auto\" goes on: ";
-  for (const MethodChange& c : changes_)
+  for (const MethodChange& c : state_.changes)
     halt.what += with_time(c) + "; ";
   halt.what += with_time(change);
   throw SolverError(error.time, std::move(halt));
@@ -103,18 +119,19 @@ MethodChange MethodChoice::after(const SolverError& error, MethodChange::Cause c
 
 void MethodChoice::accept(double h, double rate, bool own, double operations) {
   if (own)
-    short_steps_ = h * rate < short_step ? short_steps_ + 1 : 0;
-  if (weighed_steps_ == 0)
-    weighed_from_ = operations;
+    state_.short_steps = h * rate < short_step ? state_.short_steps + 1 : 0;
+  if (state_.weighed_steps == 0)
+    state_.weighed_from = operations;
   else
-    weighed_time_ += h;
-  ++weighed_steps_;
-  turn_steps_ += 1.0;
-  operations_ = operations;
+    state_.weighed_time += h;
+  ++state_.weighed_steps;
+  state_.turn_steps += 1.0;
+  state_.operations = operations;
 }
 
 std::optional<MethodChange> MethodChoice::labours(double t) const {
-  if (short_steps_ < many || !more() || takes_turn() || !method_traits(method()).bounded_stability)
+  if (state_.short_steps < many || !more() || takes_turn() ||
+      !method_traits(method()).bounded_stability)
     return std::nullopt;
   return MethodChange{MethodChange::Cause::cost, method(), t,
                       number_text(many) + " steps of " + method() + " in a row were shorter than " +
@@ -122,62 +139,57 @@ std::optional<MethodChange> MethodChoice::labours(double t) const {
 }
 
 bool MethodChoice::weighs() const {
-  return order_.may_weigh && at_ == 2 * static_cast<std::size_t>(turns_) &&
-         weighed_steps_ > weighed;
+  return order_.may_weigh && state_.at == 2 * state_.turns && state_.weighed_steps > weighed;
 }
 
 std::optional<MethodChange> MethodChoice::weigh(double t, double of_step,
                                                 const std::function<double()>& fastest) {
   constexpr double enough = 2.0, stable = 5.0; // of a step of order 8, times the fastest rate
-  const double as_many = (operations_ - weighed_from_) / of_step; // steps of explicit_rk
-  double ratio = as_many / weighed;                               // of steps as long
+  const double as_many =
+      (state_.operations - state_.weighed_from) / of_step; // steps of explicit_rk
+  double ratio = as_many / weighed;                        // of steps as long
   if (ratio > enough)
-    ratio = std::min(ratio, as_many * stable / (fastest() * weighed_time_));
-  weighed_steps_ = 0;
-  weighed_time_ = 0.0;
-  const bool again = again_;
-  again_ = false;
+    ratio = std::min(ratio, as_many * stable / (fastest() * state_.weighed_time));
+  state_.weighed_steps = 0;
+  state_.weighed_time = 0.0;
+  const bool again = state_.again;
+  state_.again = false;
   if (!(ratio > enough))
     return std::nullopt;
-  set_turns(turns_ + 1);
-  turn_ = again ? 2.0 * turn_ : 10.0 * as_many;
+  ++state_.turns;
+  state_.turn = again ? 2.0 * state_.turn : 10.0 * as_many;
   return MethodChange{MethodChange::Cause::cost, method(), t,
                       number_text(weighed) + " steps of " + method() + " took " +
                           rounded_text(ratio) + " times the operations that explicit_rk needs"};
 }
 
-/// The order with so many turns of explicit_rk after the first method.
-void MethodChoice::set_turns(int turns) {
-  const auto second = order_.methods.begin() + 1;
-  for (int k = turns; k < turns_; ++k)
-    order_.methods.erase(second, second + 2);
-  for (; turns_ < turns; ++turns_)
-    order_.methods.insert(order_.methods.begin() + 1, {"explicit_rk", order_.methods.front()});
-  turns_ = turns;
+/// The order with the turns of explicit_rk behind the first method.
+const std::string& MethodChoice::method(std::size_t at) const {
+  static const std::string other = "explicit_rk";
+  if (at > 2 * state_.turns)
+    return order_.methods[at - 2 * state_.turns];
+  return at % 2 == 1 ? other : order_.methods.front();
 }
 
 std::optional<MethodChange> MethodChoice::returns(double t) const {
-  if (!takes_turn() || turn_steps_ < turn_)
+  if (!takes_turn() || state_.turn_steps < state_.turn)
     return std::nullopt;
   return MethodChange{MethodChange::Cause::cost, method(), t,
-                      method() + " has made the " + number_text(turn_steps_) +
+                      method() + " has made the " + number_text(state_.turn_steps) +
                           " steps of its turn"};
 }
 
 std::vector<MethodChoice::Part> MethodChoice::parts() const {
   std::vector<Part> out{{order_.methods[0], 0.0, order_.reason}};
-  for (std::size_t k = 1; k <= at_; ++k)
-    out.push_back({order_.methods[k], changes_[k - 1].time, in_words(changes_[k - 1])});
+  for (std::size_t k = 1; k <= state_.at; ++k)
+    out.push_back({method(k), state_.changes[k - 1].time, in_words(state_.changes[k - 1])});
   return out;
 }
 
-void MethodChoice::remember(Archive& a) {
-  int turns = turns_;
-  a(at_, changes_, short_steps_, turns, turn_, turn_steps_, again_, weighed_steps_, weighed_time_,
-    operations_, weighed_from_);
-  set_turns(turns);
-  if (at_ >= order_.methods.size() || changes_.size() < at_)
+void MethodChoice::set(State state) {
+  if (state.at >= size(state.turns) || state.changes.size() < state.at)
     throw Error("the state is of a run with other methods");
+  state_ = std::move(state);
 }
 
 std::string in_words(const MethodChoice& choice) {

@@ -9,7 +9,6 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/solver_options.h"
-#include "hydrodae/run/method_change.h"
 #include "hydrodae/system/jacobian.h"
 
 namespace hydrodae::run {
@@ -50,6 +49,25 @@ MethodOrder order_methods(const SceneTraits& traits);
 SceneTraits find_traits(const system::Regime& system, const system::Pattern& pattern,
                         const SolverOptions& options, const VectorX& y, const VectorX& yp);
 
+/// The decision to leave a method for the next one of the order.
+struct MethodChange {
+  enum class Cause {
+    cost,  ///< the next method has less work
+    stop,  ///< the method can make no step
+    guard, ///< a guard has refused a step of the method
+  };
+  Cause cause = Cause::cost;
+  std::string method; ///< the one that is left
+  double time = 0.0;  ///< [s]
+  std::string reason; ///< what happened
+};
+
+/// "radau gave up: the step has become too short"; a decision on costs by its reason alone.
+std::string in_words(const MethodChange& change);
+
+/// "radau at t = 1.5 s: the step has become too short"
+std::string with_time(const MethodChange& change);
+
 /// The method at work in a run, those before it and those that are left. Each method is given up
 /// once at most: what it could not pass may come again.
 class MethodChoice {
@@ -60,14 +78,14 @@ public:
   /// Those of an order, from the first on.
   explicit MethodChoice(MethodOrder order);
 
-  const std::string& method() const { return order_.methods[at_]; }
+  const std::string& method() const { return method(state_.at); }
   const MethodOrder& order() const { return order_; }
 
   /// Was it chosen, rather than named?
   bool chosen() const { return order_.methods.size() > 1; }
 
   /// Is there another method to go on with?
-  bool more() const { return at_ + 1 < order_.methods.size(); }
+  bool more() const { return state_.at + 1 < size(state_.turns); }
 
   /// Goes on with the next method, of which there must be one.
   void next(const MethodChange& change);
@@ -112,23 +130,30 @@ public:
   };
   std::vector<Part> parts() const;
 
-  void remember(Archive& a);
+  struct State {
+    std::size_t at = 0;
+    std::vector<MethodChange> changes; ///< so far, one for each method before
+    int short_steps = 0;               ///< in a row
+    std::size_t turns = 0;             ///< of explicit_rk, each with radau after it
+    double turn = 0.0;                 ///< steps of the last
+    double turn_steps = 0.0;           ///< made in it
+    bool again = false;                ///< have no steps of radau been weighed since the last turn?
+    int weighed_steps = 0;             ///< since the last `weigh`
+    double weighed_time = 0.0;         ///< that they took [s]
+    double operations = 0.0, weighed_from = 0.0; ///< at the last step, at the last `weigh`
+  };
+  const State& state() const { return state_; }
+
+  /// Throws Error for the state of another order.
+  void set(State state);
 
 private:
-  bool takes_turn() const { return at_ % 2 == 1 && at_ < 2 * static_cast<std::size_t>(turns_); }
-  void set_turns(int turns);
+  bool takes_turn() const { return state_.at % 2 == 1 && state_.at < 2 * state_.turns; }
+  std::size_t size(std::size_t turns) const { return order_.methods.size() + 2 * turns; }
+  const std::string& method(std::size_t at) const;
 
   MethodOrder order_;
-  std::size_t at_ = 0;
-  std::vector<MethodChange> changes_; ///< so far, one for each method before
-  int short_steps_ = 0;               ///< in a row
-  int turns_ = 0;                     ///< of explicit_rk, each with radau after it
-  double turn_ = 0.0;                 ///< steps of the last
-  double turn_steps_ = 0.0;           ///< made in it
-  bool again_ = false;                ///< have no steps of radau been weighed since the last turn?
-  int weighed_steps_ = 0;             ///< since the last `weigh`
-  double weighed_time_ = 0.0;         ///< that they took [s]
-  double operations_ = 0.0, weighed_from_ = 0.0; ///< at the last step, at the last `weigh`
+  State state_;
 };
 
 /// "auto: explicit_rk (nothing is stiff), radau from t = 1.2 s because ..."; a method that was

@@ -96,8 +96,8 @@ void PoseWatch::restart(const VectorX& y) {
 
 void PoseWatch::begin(const VectorX& y) {
   rows_ = std::make_unique<Rows>(s_);
-  best_ = independence(0.0, y, VectorX::Zero(y.size()));
-  best_pivots_ = pivots(y);
+  state_.best = independence(0.0, y, VectorX::Zero(y.size()));
+  state_.best_pivots = pivots(y);
 }
 
 VectorX PoseWatch::pivots(const VectorX& y) const {
@@ -115,18 +115,18 @@ VectorX PoseWatch::independence(double t, const VectorX& y, const VectorX& yp) {
 
 bool PoseWatch::is_singular(double t, const VectorX& y, const VectorX& yp) {
   const VectorX now = independence(t, y, yp);
-  best_ = best_.cwiseMax(now);
-  const auto near = (now.array() <= singular * best_.array()).eval();
+  state_.best = state_.best.cwiseMax(now);
+  const auto near = (now.array() <= singular * state_.best.array()).eval();
   if (!near.any())
     return false;
   const VectorX least = pivots(y);
-  best_pivots_ = best_pivots_.cwiseMax(least);
-  return (near && least.array() <= in_line * best_pivots_.array()).any();
+  state_.best_pivots = state_.best_pivots.cwiseMax(least);
+  return (near && least.array() <= in_line * state_.best_pivots.array()).any();
 }
 
 bool PoseWatch::near_singular(const Step& step) {
   const bool short_steps = method_traits(options_.method).many_steps;
-  if (!rows_ || (short_steps && ++asked_ % 4 != 0))
+  if (!rows_ || (short_steps && ++state_.asked % 4 != 0))
     return false;
   const int looks = short_steps ? 1 : 6;
   for (int k = 1; k <= looks; ++k) {
@@ -150,12 +150,6 @@ Halt PoseWatch::with_remedy(Halt halt, double t, const VectorX& y, const VectorX
           : "it is next to a singular pose (a dead point, or bars in line): solver.method = "
             "\"radau\" or \"explicit_rk\" passes such poses";
   return halt;
-}
-
-void PoseWatch::remember(Archive& a) {
-  a(asked_);
-  if (rows_)
-    a(best_, best_pivots_);
 }
 
 } // namespace hydrodae::run

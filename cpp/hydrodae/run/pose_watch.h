@@ -3,7 +3,6 @@
 
 #include <memory>
 
-#include "hydrodae/core/archive.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/solver_options.h"
 #include "hydrodae/system/jacobian.h"
@@ -35,7 +34,14 @@ public:
 
   /// Other rows hold from now on; takes the pose of y for a regular one.
   void restart(const VectorX& y);
-  void remember(Archive& a);
+
+  struct State {
+    VectorX best;        ///< independence of the rows in the best pose seen, by mechanism
+    VectorX best_pivots; ///< least pivots of the rows in the best pose seen, by mechanism
+    long asked = 0;      ///< times that a singular pose would have mattered
+  };
+  const State& state() const { return state_; }
+  void set(State state) { state_ = std::move(state); }
 
 private:
   struct Rows;
@@ -48,10 +54,8 @@ private:
   const system::Regime& s_;
   const SolverOptions& options_;
   std::unique_ptr<Rows> rows_; ///< null: nothing to watch
-  VectorX best_;               ///< independence of the rows in the best pose seen, by mechanism
-  VectorX best_pivots_;        ///< least pivots of the rows in the best pose seen, by mechanism
-  long asked_ = 0;             ///< times that a singular pose would have mattered
-  VectorX y_, yp_;             ///< scratch
+  State state_;
+  VectorX y_, yp_; ///< scratch
 };
 
 /// Do the joints close a loop through moving bodies and the ground?

@@ -3,302 +3,386 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <map>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
-#include "hydrodae/statics/consistent_start.h"
-#include "hydrodae/statics/equilibrium.h"
-#include "hydrodae/system/mechanisms.h"
+#include "hydrodae/integrate/runge_kutta.h"
+#include "hydrodae/run/followers.h"
 
 namespace hydrodae::run {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+/// Adds the wall time of its life to a sum [s].
+class Watch {
+public:
+  explicit Watch(double& sum) : sum_(sum) {}
+  ~Watch() { sum_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
+private:
+  using Clock = std::chrono::steady_clock;
+  double& sum_;
+  Clock::time_point start_ = Clock::now();
+};
+
+/// The problem with the start that its events have left, from which its past begins.
+Problem& begun(Problem& problem, const Instant& start) {
+  problem.begin(start);
+  return problem;
 }
-
-/// The columns that belong to the solver rather than to the scene.
-const std::vector<Channel> solver_channels = {
-    {"solver/step", 1, "s", "-", "Length of the step that holds this sample."},
-    {"solver/order", 1, "-", "-", "Order of that step."}};
 
 } // namespace
 
-Simulation::Start Simulation::begin(const model::Scene& scene) {
-  Start start{statics::starting_system(scene), {}, {}, {}};
-  const system::Regime regime(start.system);
-  start.pattern = system::find_pattern(regime);
-  start.y = system::initial_state(regime);
-  statics::consistent_start(regime, start.pattern, start.y, start.yp);
-  system::take_time_scales(start.system, start.y, start.yp);
-  return start;
-}
-
-Simulation::Simulation(model::Scene scene, double looser)
-    : Simulation(begin(scene), std::move(scene), looser) {}
-
-Simulation::Simulation(Start start, model::Scene&& scene, double looser)
-    : scene_(std::move(scene)), looser_(looser), options_(scene_.solver),
-      system_(std::move(start.system)), pattern_(std::move(start.pattern)), y_(std::move(start.y)),
-      yp_(std::move(start.yp)), notes_(system_.notes), inputs_(find_inputs(regime_)) {
-  forcing_ = std::make_unique<system::Forcing>(regime_, options_.end_time, scene_.output.step);
-  scale_ = std::make_unique<system::MotionScale>(regime_, pattern_, y_, yp_, forcing_->motion(),
-                                                 scene_.sea.ramp, options_.rtol);
-  if (!system_.switches.empty()) {
-    switching_ = std::make_unique<events::Switching>(regime_, options_.rtol);
-    switching_->settle(0.0, y_, yp_);
-  }
-  law_events_ = std::make_unique<events::LawEvents>(regime_, y_);
-  formulate();
-  begin_history();
-  choose_method();
-  make_integrator();
-  measure_ = std::make_unique<measure::Measure>(regime_, 0.0, y_, yp_);
-  recorder_ = std::make_unique<observe::Recorder>(regime_, *measure_);
-  measure_->average_from(system_.has_waves() ? scene_.sea.ramp : 0.0);
-  guards_ = std::make_unique<Guards>(regime_, pattern_, options_, y_);
-  make_channels();
-  find_sources();
-}
-
-void Simulation::find_sources() {
-  if (controllers_)
-    sources_ = controllers_->sources();
-  for (events::Source* source : law_events_->sources())
-    sources_.push_back(source);
-  if (switching_)
-    sources_.push_back(switching_.get());
-}
-
-/// The start is found on the stabilised equations; then the formulation may change.
-void Simulation::formulate() {
-  using system::Formulation;
-  static const std::map<std::string, Formulation> formulations = {
-      {"stabilised", Formulation::stabilised},
-      {"index_2", Formulation::index_2},
-      {"index_3", Formulation::index_3},
-      {"index_1", Formulation::index_1}};
-  regime_.formulation = formulations.at(options_.formulation);
-  if (options_.baumgarte_time > 0.0)
-    regime_.baumgarte_rate = 1.0 / options_.baumgarte_time;
-  if (regime_.formulation != Formulation::stabilised || switching_)
-    pattern_ = system::find_pattern(regime_);
-}
-
-/// The past of a scene that depends on it begins at the start, and limits the steps.
-void Simulation::begin_history() {
-  if (!system::has_past(system_))
-    return;
-  const std::string note = system::limit_steps(system_, options_);
-  if (!note.empty())
-    notes_.push_back(note);
-  history_ = std::make_unique<system::History>(regime_, options_);
-  history_->append(0.0, y_, yp_);
-  regime_.history = history_.get();
-}
-
-void Simulation::make_channels() {
-  channels_ = recorder_->channels();
-  channels_.insert(channels_.end(), solver_channels.begin(), solver_channels.end());
-  const std::vector<Channel> taken = impacts_.channels();
-  channels_.insert(channels_.end(), taken.begin(), taken.end());
-  width_ = recorder_->width() + solver_channels.size() + impacts_.width();
-  if (scene_.controllers.empty())
-    return;
-  const std::vector<Channel> held = held_channels(scene_, inputs_);
-  channels_.insert(channels_.end(), held.begin(), held.end());
-  width_ += held.size();
-  controllers_ = std::make_unique<Controllers>(scene_, regime_, channels_, inputs_);
-}
-
-linalg::Statistics Simulation::statistics() const {
-  linalg::Statistics all = before_start_;
-  const linalg::Statistics now = integrator_->statistics();
-  all += now;
-  all.last_step = now.last_step;
-  all.last_order = now.last_order;
-  return all;
+Simulation::Simulation(model::Scene given, double looser)
+    : problem_(std::move(given)), inputs_(find_inputs(problem_.regime)), now_(problem_.start),
+      bound_(problem_, looser), scale_(problem_.regime, problem_.pattern, now_.y, now_.yp,
+                                       bound_.motion(), scene().sea.ramp, problem_.options.rtol),
+      events_(problem_, now_), method_(begun(problem_, now_), now_),
+      measure_(problem_.regime, 0.0, now_.y, now_.yp),
+      guards_(problem_.regime, problem_.pattern, problem_.options, now_.y),
+      channels_(problem_.regime, measure_, held_channels(scene(), inputs_)),
+      controllers_(scene(), problem_.regime, channels_.all(), inputs_) {
+  measure_.average_from(system().has_waves() ? scene().sea.ramp : 0.0);
+  events_.add(controllers_.sources());
+  parts_.push_back(std::make_unique<ControlFollower>(controllers_));
+  parts_.push_back(std::make_unique<MeasureFollower>(measure_, problem_.regime));
+  parts_.push_back(std::make_unique<ScaleFollower>(scale_));
+  if (problem_.history)
+    parts_.push_back(std::make_unique<HistoryFollower>(*problem_.history));
+  for (const std::unique_ptr<Follower>& part : parts_)
+    followers_.push_back(part.get());
+  followers_.insert(followers_.end(), {&method_, &events_, &guards_});
 }
 
 void Simulation::advance(double limit, const Inside& inside) {
-  if (finished() || !(limit > t_))
+  if (finished() || !(limit > now_.t))
     return;
   require_going();
-  take_control();
-  take_inputs();
-  if (controllers_ && controllers_->is_due(t_, event_here_)) { // what was written has made it so
-    take_control();
-    take_inputs();
-  }
-  now_.clear();
-  failed_ = true; // until the step is accepted by all
-  const double last = std::min(limit, options_.end_time);
-  const double end = controllers_ ? controllers_->limit(last) : last;
-  const bool event = take_step(end);
-  if (controllers_)
-    controllers_->accept(t_, y_, yp_);
+  ask_controllers();
+  standing_.row.clear();
+  standing_.failed = true; // until the step is accepted by all
+  const Step made = take_step(controllers_.limit(std::min(limit, problem_.options.end_time)));
   if (inside)
     inside();
-  measure_->accept();
-  regime_.nearby = measure_->turns().value;
-  scale_->accept(t_, y_);
-  if (history_)
-    history_->append(t_, y_, yp_, motion_, integrator_->degree());
-  watch_steps(event, end);
-  event_here_ = event;
-  if (event)
-    law_events_->part(t_, y_);
-  else
-    law_events_->accept(t_, y_);
-  if (event || (history_ && history_->jumps()))
+  for (Follower* follower : followers_)
+    follower->accept(made);
+  course_.event_here = made.event;
+  if (made.event || (problem_.history && problem_.history->jumps()))
     restart();
-  failed_ = false;
+  standing_.failed = false;
 }
 
 void Simulation::require_going() const {
-  if (failed_)
+  if (standing_.failed)
     throw SolverError(
-        t_, {Reason::state, "the run has stopped; it goes on from a state that is restored only"});
+        now_.t,
+        {Reason::state, "the run has stopped; it goes on from a state that is restored only"});
 }
 
-/// One step that no guard proves wrong, and what it adds to the sums. Under "auto" the next
+/// Controllers that are due see the motion, and act on it: twice, where what was written has made
+/// one due.
+void Simulation::ask_controllers() {
+  for (int k = 0; k < 2; ++k) {
+    take_control();
+    take_inputs();
+  }
+}
+
+void Simulation::take_control() {
+  if (!controllers_.is_due(now_.t, course_.event_here))
+    return;
+  take_inputs();
+  standing_.failed = true; // until all have answered
+  course_.control_since = now_.t;
+  if (controllers_.act(now_.t, course_.event_here, row_now()))
+    standing_.written = true;
+  constexpr double far = 100.0; // levers or rad: no device is meant to go there
+  if (const VectorX& reached = scale_.reached(); reached.size() > 0 && reached.maxCoeff() > far)
+    if (const std::string why = controllers_.runaway(); !why.empty())
+      throw SolverError(now_.t, {Reason::growth, why});
+  course_.event_here = false;
+  standing_.failed = false;
+}
+
+/// Before the motion goes on, or is looked at: accelerations that belong to the inputs.
+void Simulation::take_inputs() {
+  if (!standing_.written)
+    return;
+  require_going();
+  standing_.written = false;
+  standing_.row.clear();
+  standing_.failed = true; // until there are accelerations
+  restart();
+  standing_.failed = false;
+}
+
+/// One step that no follower proves wrong, and what it adds to the sums. Under "auto" the next
 /// method makes a step that is.
-/// @returns whether it ends in an event
-bool Simulation::take_step(double end) {
+Step Simulation::take_step(double end) {
   for (;;) {
-    const Clock::time_point before = Clock::now();
-    const bool event = make_step(end);
-    solver_time_ += seconds_since(before);
+    const Step made = make_step(end);
     measure_step();
-    at_(t_, y_, yp_);
-    if (closing_)
-      closing_->accept(t_, y_, yp_);
+    integrator().interpolate(now_.t, now_.y, now_.yp);
     try {
-      guards_->accept(last_step(event));
-      return event;
+      for (Follower* follower : followers_)
+        follower->judge(made);
+      return made;
     } catch (const SolverError& error) {
-      if (!methods_.more())
+      if (!methods().more())
         throw;
-      take_back();
-      change_method(methods_.after(error, MethodChange::Cause::guard));
+      measure_.take_back();
+      now_ = standing_.before;
+      change_method(methods().after(error, MethodChange::Cause::guard));
     }
   }
+}
+
+/// One step, cut short where a stop or dry friction changes.
+Step Simulation::make_step(double end) {
+  const Watch watch(standing_.solver_time);
+  const SolverOptions& options = problem_.options;
+  if (const auto change = method_.cheaper(now_))
+    change_method(*change);
+  for (;;) {
+    course_.last_start = course_.step_start;
+    course_.step_start = standing_.before.t = now_.t;
+    if ((events_.any() && method_.approaches_events()) || methods().more())
+      integrator().interpolate(now_.t, standing_.before.y, standing_.before.yp);
+    const double bound = bound_of_step(), kink = next_kink();
+    try {
+      // Fixed steps keep their length whatever is known ahead, but end at an event that was found,
+      // and where the past jumps.
+      const double known = scene().solver.step > 0.0 ? course_.event_near : INFINITY;
+      now_.t = integrator().step(std::min({end, kink, known}), std::min(bound, kink));
+    } catch (const SolverError& error) {
+      integrator().interpolate(now_.t, now_.y, now_.yp);
+      if (begins_to_move())
+        continue;
+      const SolverError stopped(error.time,
+                                guards_.poses().with_remedy(error.halt, now_.t, now_.y, now_.yp));
+      if (!methods().chosen())
+        throw stopped;
+      change_method(methods().after(stopped, MethodChange::Cause::stop));
+      continue;
+    }
+    const std::optional<double> event = events_.locate(course_.step_start, now_, integrator());
+    if (event && method_.approaches_events() &&
+        StepBound::is_inside(course_.step_start, *event, now_.t)) {
+      approach(*event);
+      continue;
+    }
+    standing_.cut = event && *event < now_.t;
+    now_.t = event.value_or(now_.t);
+    const double longest = options.max_step > 0.0 ? 0.9 * options.max_step : INFINITY;
+    return step(event.has_value(), !event && now_.t < end && now_.t < std::min(bound, kink) &&
+                                       now_.t - course_.step_start < longest);
+  }
+}
+
+Step Simulation::step(bool event, bool own) {
+  return {course_.step_start, now_.t,           event, now_.y, now_.yp, integrator(),
+          measure_,           methods().more(), own};
+}
+
+double Simulation::bound_of_step() {
+  return bound_.find({now_.t, measure_.turns(), integrator(), controllers_.next_time()}, course_);
+}
+
+/// Where the past jumps, as a method of the order of the last step notices it [s].
+double Simulation::next_kink() {
+  return problem_.history ? problem_.history->next_kink(integrator().statistics().last_order)
+                          : INFINITY;
+}
+
+/// Takes the last step back, and lets the next ones end at the event.
+void Simulation::approach(double event) {
+  course_.event_near = event;
+  now_ = standing_.before;
+  events_.follow(measure_.turns());
+  method_.restart_at(now_);
+}
+
+/// A step has failed. Does a load that sets in here ask for tolerances of a larger motion than
+/// there was so far? Then the method goes on from the last accepted instant with these.
+bool Simulation::begins_to_move() {
+  double time = std::abs(now_.t);
+  for (const system::BodyData& b : system().bodies)
+    time = std::max(time, b.time_scale);
+  const double later = now_.t + 1e-9 * time; // beyond the shortest step that a method tries
+  VectorX y = now_.y, yp = now_.yp;
+  if (!events_.restore(later, y, yp) || !scale_.begin_again(problem_.pattern, later, y, yp))
+    return false;
+  method_.renew(now_); // with a first step of its own: that of the failed one has no length left
+  return true;
+}
+
+/// The next method goes on from the last accepted instant. What the guards have seen stays.
+void Simulation::change_method(const MethodChange& change) {
+  course_.event_near = INFINITY;
+  events_.follow(measure_.turns());
+  method_.change(change, now_);
+}
+
+/// The work over the step: by the stages of the method, if it can and there are no samples.
+void Simulation::measure_step() {
+  const auto at = [this](double t, VectorX& y, VectorX& yp) { integrator().look_inside(t, y, yp); };
+  const std::span<const double> weights = integrator().stage_weights();
+  if (has_samples() || standing_.cut || weights.empty()) {
+    choose_quadrature();
+    return measure_.begin(now_.t, at, !weights.empty());
+  }
+  const auto stage = [this](std::size_t i, VectorX& y, VectorX& yp) {
+    return integrator().stage(i, y, yp);
+  };
+  measure_.begin(now_.t, weights, stage, at);
 }
 
 /// Does the step, its start among it, hold an output sample? By the case alone, so that the sums of
 /// a run are the same whoever drives it.
 bool Simulation::has_samples() const {
   constexpr double rounding = 1e-12; // of the times of samples and steps
-  const double dt = scene_.output.step;
-  return std::ceil(step_start_ / dt * (1.0 - rounding)) * dt <= t_ * (1.0 + rounding);
+  const double dt = scene().output.step;
+  return std::ceil(course_.step_start / dt * (1.0 - rounding)) * dt <= now_.t * (1.0 + rounding);
 }
 
-/// The work over the step: by the stages of the method, if it can and there are no samples.
-void Simulation::measure_step() {
-  const std::span<const double> weights = integrator_->stage_weights();
-  if (!has_samples() && !cut_ && !weights.empty()) {
-    measure_->begin(t_, weights, stage_, inside_);
+/// The rule by which the work over the coming step is summed.
+void Simulation::choose_quadrature() {
+  const int nodes = integrator().quadrature_nodes();
+  if (nodes == course_.quadrature_nodes)
     return;
-  }
-  choose_quadrature();
-  measure_->begin(t_, inside_, !weights.empty());
-}
-
-Step Simulation::last_step(bool event) {
-  return {step_start_, t_, event, y_, yp_, *integrator_, *measure_, methods_.more()};
-}
-
-/// One step, cut short where a stop or dry friction changes.
-/// @returns whether it ends in such an event
-bool Simulation::make_step(double end) {
-  weigh_methods();
-  for (;;) {
-    last_start_ = step_start_;
-    step_start_ = t_;
-    if ((!sources_.empty() && approaches_events_) || methods_.more())
-      at_(t_, y_start_, yp_start_);
-    const double kink =
-        history_ ? history_->next_kink(integrator_->statistics().last_order) : INFINITY;
-    bound_ = std::min(find_bound(), kink);
-    try {
-      // Fixed steps keep their length whatever is known ahead, but end at an event that was found,
-      // and where the past jumps.
-      const double known = std::min(kink, scene_.solver.step > 0.0 ? event_near_ : INFINITY);
-      t_ = integrator_->step(std::min(end, known), bound_);
-    } catch (const SolverError& error) {
-      at_(t_, y_, yp_);
-      if (begins_to_move())
-        continue;
-      const SolverError stopped(error.time, guards_->poses().with_remedy(error.halt, t_, y_, yp_));
-      if (!methods_.chosen())
-        throw stopped;
-      change_method(methods_.after(stopped, MethodChange::Cause::stop));
-      continue;
-    }
-    const std::optional<double> event = locate();
-    if (!event || !inside_of_step(*event)) {
-      cut_ = event && *event < t_;
-      t_ = event.value_or(t_);
-      return event.has_value();
-    }
-    approach(*event);
-  }
+  course_.quadrature_nodes = nodes;
+  const integrate::RungeKutta rule =
+      integrate::make_runge_kutta(integrate::Family::lobatto_iiic, nodes);
+  measure_.set_quadrature({{rule.c.begin(), rule.c.end()}, {rule.b.begin(), rule.b.end()}});
 }
 
 /// Goes on from an event, or with other inputs, by the rows and loads that hold from now on.
 void Simulation::restart() {
-  const Clock::time_point before = Clock::now();
-  std::optional<double> struck;
-  follow_turns();
-  law_events_->settle(t_, y_);
-  if (switching_)
-    struck = switching_->settle(t_, y_, yp_);
+  const Watch watch(standing_.solver_time);
+  events_.follow(measure_.turns());
+  const std::optional<double> work = events_.settle(now_);
+  for (Follower* follower : followers_)
+    follower->restart({now_.t, now_.y, now_.yp, work});
+  if (finished())
+    return;
+  if (events_.switching()) // rows come and go
+    method_.renew(now_);
   else
-    struck = consistency().restore(t_, y_, yp_);
-  if (struck && law_events_->settle(t_, y_) && !switching_)
-    consistency().restore(t_, y_, yp_);
-  measure_->restart(y_, yp_, struck);
-  if (history_)
-    history_->append(t_, y_, yp_);
-  if (!finished()) {
-    if (switching_) { // rows come and go
-      pattern_ = system::find_pattern(regime_);
-      renew_integrator();
-    } else {
-      restart_integrator();
-    }
-    guards_->restart(y_);
-  }
-  solver_time_ += seconds_since(before);
+    method_.restart_at(now_);
 }
 
-statics::Consistency& Simulation::consistency() {
-  if (!consistency_)
-    consistency_ = std::make_unique<statics::Consistency>(regime_);
-  return *consistency_;
+void Simulation::finish() {
+  const Step last = step(false, false);
+  for (Follower* follower : followers_)
+    follower->finish(last);
 }
-
-/// What is made from now on knows on which turn the angles are.
-void Simulation::follow_turns() {
-  const system::Turns& turns = measure_->turns();
-  regime_.nearby = turns.value;
-  if (switching_)
-    switching_->follow(turns);
-}
-
-void Simulation::finish() { guards_->finish(last_step(false)); }
 
 double Simulation::relative_balance_error() const {
-  const double exchanged = measure_->whole().exchanged;
-  return exchanged > 0.0 ? measure_->relative_balance_error() * exchanged / energy_scale() : 0.0;
+  const double exchanged = measure_.whole().exchanged;
+  return exchanged > 0.0 ? measure_.relative_balance_error() * exchanged / energy_scale() : 0.0;
 }
 
 double Simulation::energy_scale() const {
-  return std::max(measure_->whole().exchanged, energy_of_errors(regime_, options_.rtol));
+  return std::max(measure_.whole().exchanged, energy_of_errors(regime(), problem_.options.rtol));
+}
+
+State Simulation::state() {
+  require_going();
+  take_inputs();
+  State out;
+  out.time = now_.t;
+  out.y = now_.y;
+  out.yp = now_.yp;
+  out.scene = problem_.fingerprint();
+  out.held = regime().state();
+  out.course = course_;
+  for (const Follower* follower : followers_)
+    follower->save(out);
+  set(out);
+  return out;
+}
+
+void Simulation::restore(const State& state) {
+  set(state);
+  controllers_.restored(now_.t);
+}
+
+void Simulation::set(const State& state) {
+  problem_.require_same(state.scene);
+  if (state.switching.has_value() != (switching() != nullptr) ||
+      state.history.has_value() != (problem_.history != nullptr))
+    throw Error("the state has other parts than the scene");
+  standing_ = {{}, false, false, true, {}, standing_.solver_time}; // failed until all is restored
+  now_ = {state.time, state.y, state.yp};
+  course_ = state.course;
+  problem_.regime.set(state.held);
+  if (switching())
+    system::lay_out(problem_.regime);
+  if (now_.y.size() != regime().n || now_.yp.size() != regime().n)
+    throw Error("the state has other unknowns than the scene");
+  problem_.pattern = system::find_pattern(regime());
+  for (Follower* follower : followers_)
+    follower->set(state);
+  events_.follow(measure_.turns());
+  standing_.failed = false;
+}
+
+void Simulation::sample(double t, std::span<double> row) {
+  integrate::SampleClosing* closing = method_.closing();
+  const bool loose = method_traits(problem_.options.method).loose_reactions;
+  const auto closed = [&](double at, VectorX& y, VectorX& yp) {
+    integrator().interpolate(at, y, yp);
+    if (!closing)
+      return;
+    if (!at_rest())
+      closing->close(at, y);
+    if (at_rest() || loose)
+      closing->hold(at, y, yp);
+  };
+  channels_.recorder().sample(t, closed, row.first(recorder().width()));
+  channels_.fill(counts(), row);
+}
+
+void Simulation::look(double t, VectorX& y) {
+  y = now_.y;
+  if (t >= now_.t)
+    return;
+  VectorX yp(y.size());
+  integrator().look_inside(t, y, yp);
+}
+
+Channels::Counts Simulation::counts() const {
+  return {method_.integrator().statistics(), switching(), controllers_.held()};
+}
+
+/// All channels now.
+std::span<const double> Simulation::row_now() {
+  std::vector<double>& row = standing_.row;
+  if (row.empty()) {
+    row.resize(width());
+    channels_.recorder().look(now_.y, now_.yp, std::span(row).first(recorder().width()));
+    channels_.fill(counts(), row);
+  }
+  return row;
+}
+
+std::span<const double> Simulation::read(const std::string& channel) {
+  take_inputs();
+  return channels_.find(channel, row_now());
+}
+
+void Simulation::write(const std::string& input, double value) {
+  Input& target = input_named(inputs_, input);
+  for (const model::Controller& c : scene().controllers)
+    for (const std::string& output : c->outputs)
+      if (signal_of(output).name == target.name)
+        throw CaseError("input " + in_quotes(input) + " is what controller " + in_quotes(c->name) +
+                        " of the case writes; expected one that no controller holds");
+  check_value(target, value);
+  if (target.set(now_.t, value))
+    standing_.written = true;
 }
 
 } // namespace hydrodae::run

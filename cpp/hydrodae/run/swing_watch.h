@@ -7,23 +7,23 @@
 #include <cmath>
 #include <deque>
 
-#include "hydrodae/core/archive.h"
-
 namespace hydrodae::run {
 
-class SwingWatch {
-public:
+struct SwingWatch {
+  double last = 0.0, peak = 0.0;
+  std::deque<double> peaks; ///< largest value of each swing
+
   /// The next answer.
   void add(double value) {
-    if (value * last_ < 0.0) {
-      peaks_.push_back(peak_);
-      if (peaks_.size() > 2 * longest + 1)
-        peaks_.pop_front();
-      peak_ = 0.0;
+    if (value * last < 0.0) {
+      peaks.push_back(peak);
+      if (peaks.size() > 2 * longest + 1)
+        peaks.pop_front();
+      peak = 0.0;
     }
-    peak_ = std::max(peak_, std::abs(value));
+    peak = std::max(peak, std::abs(value));
     if (value != 0.0)
-      last_ = value;
+      last = value;
   }
 
   struct Growth {
@@ -35,23 +35,18 @@ public:
   /// of waves, brings slows down.
   Growth growth() const {
     for (const std::size_t n : windows) {
-      if (peaks_.size() <= 2 * n)
+      if (peaks.size() <= 2 * n)
         return {};
-      const double now = peaks_.back(), then = *(peaks_.rbegin() + static_cast<long>(n)),
-                   before = *(peaks_.rbegin() + static_cast<long>(2 * n));
+      const double now = peaks.back(), then = *(peaks.rbegin() + static_cast<long>(n)),
+                   before = *(peaks.rbegin() + static_cast<long>(2 * n));
       if (before > 0.0 && now > much * then && then > much * before)
         return {2 * n, before, now};
     }
     return {};
   }
 
-  void remember(Archive& a) { a(last_, peak_, peaks_); }
-
-private:
   static constexpr std::size_t windows[] = {3, 6, 15, 40, 100}, longest = 100; ///< swings
   static constexpr double much = 30.0;
-  double last_ = 0.0, peak_ = 0.0;
-  std::deque<double> peaks_; ///< largest value of each swing
 };
 
 } // namespace hydrodae::run

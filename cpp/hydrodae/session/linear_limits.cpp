@@ -57,9 +57,10 @@ LinearLimits linear_limits(const model::Scene& scene, const system::System& s) {
       continue;
     const auto body = std::find_if(s.bodies.begin(), s.bodies.end(),
                                    [&](const system::BodyData& b) { return b.name == mode.body; });
-    out.modes.push_back(
-        {static_cast<int>(body - s.bodies.begin()), in_quotes(mode.body) + ", mode " + mode.name,
-         std::sqrt(LinearLimits::softening * mode.stiffness / mode.mass), std::nullopt});
+    out.modes.push_back({static_cast<int>(body - s.bodies.begin()),
+                         in_quotes(mode.body) + ", mode " + mode.name,
+                         std::sqrt(LinearLimits::softening * mode.stiffness / mode.mass)});
+    out.state.spins.emplace_back();
   }
   if (!scene.hydro || !scene.database)
     return out;
@@ -84,46 +85,55 @@ LinearLimits linear_limits(const model::Scene& scene, const system::System& s) {
           entry.hydrostatics->displaced_volume > 0.0)
         watched.half_draught = 0.5 * draught(*scene.database, *entry.hydrostatics);
     out.bodies.push_back(watched);
+    out.state.bodies.emplace_back();
   }
   return out;
 }
 
 void watch(LinearLimits& limits, double t, const std::vector<system::BodyState<double>>& states) {
-  for (LinearLimits::Body& b : limits.bodies) {
+  for (std::size_t k = 0; k < limits.bodies.size(); ++k) {
+    const LinearLimits::Body& b = limits.bodies[k];
+    LinearLimits::OfBody& found = limits.state.bodies[k];
     const system::BodyState<double>& state = states[static_cast<std::size_t>(b.body)];
     // cos(angle): of the whole turn from the mean pose, or of the tilt of the z axis.
     const double cosine =
         b.free_yaw ? state.R(2, 2) : 0.5 * (b.mean.cwiseProduct(state.R).sum() - 1.0);
-    take(b.turn, t, std::acos(std::clamp(cosine, -1.0, 1.0)), LinearLimits::largest_turn);
+    take(found.turn, t, std::acos(std::clamp(cosine, -1.0, 1.0)), LinearLimits::largest_turn);
     const Vector3 moved = state.r - b.place;
-    take(b.rise, t, std::abs(moved[2]), b.half_draught);
-    take(b.drift, t, moved.head<2>().norm(), limits.tenth_wave);
+    take(found.rise, t, std::abs(moved[2]), b.half_draught);
+    take(found.drift, t, moved.head<2>().norm(), limits.tenth_wave);
   }
-  for (LinearLimits::Mode& m : limits.modes)
-    take(m.spin, t, states[static_cast<std::size_t>(m.body)].w.norm(), m.largest_rate);
+  for (std::size_t k = 0; k < limits.modes.size(); ++k) {
+    const LinearLimits::Mode& m = limits.modes[k];
+    take(limits.state.spins[k], t, states[static_cast<std::size_t>(m.body)].w.norm(),
+         m.largest_rate);
+  }
 }
 
 std::vector<std::string> notes(const LinearLimits& limits) {
   std::vector<std::string> out;
   constexpr double degrees = 180.0 / pi;
-  for (const LinearLimits::Body& b : limits.bodies) {
-    if (b.turn)
-      out.push_back(sentence(b.name, "turns", *b.turn, degrees, "deg", "15 deg"));
-    if (b.rise)
-      out.push_back(sentence(b.name, "rises or sinks", *b.rise, 1.0, "m",
+  for (std::size_t k = 0; k < limits.bodies.size(); ++k) {
+    const LinearLimits::Body& b = limits.bodies[k];
+    const LinearLimits::OfBody& found = limits.state.bodies[k];
+    if (found.turn)
+      out.push_back(sentence(b.name, "turns", *found.turn, degrees, "deg", "15 deg"));
+    if (found.rise)
+      out.push_back(sentence(b.name, "rises or sinks", *found.rise, 1.0, "m",
                              "half the draught, taken as the cube root of the displaced volume: " +
                                  rounded(b.half_draught, "m")));
-    if (b.drift)
-      out.push_back(sentence(b.name, "moves off its place in the waves", *b.drift, 1.0, "m",
+    if (found.drift)
+      out.push_back(sentence(b.name, "moves off its place in the waves", *found.drift, 1.0, "m",
                              "a tenth of the wave length: " + rounded(limits.tenth_wave, "m")));
   }
-  for (const LinearLimits::Mode& m : limits.modes)
-    if (m.spin)
-      out.push_back("body " + m.name + ": turns at " + rounded(m.spin->value, "rad/s") +
-                    " at t = " + rounded(m.spin->time, "s") + ", at most " +
-                    rounded(m.spin->largest, "rad/s") + "; beyond " +
-                    rounded(m.largest_rate, "rad/s") +
+  for (std::size_t k = 0; k < limits.modes.size(); ++k) {
+    const LinearLimits::Mode& m = limits.modes[k];
+    if (const std::optional<Crossing>& spin = limits.state.spins[k])
+      out.push_back("body " + m.name + ": turns at " + rounded(spin->value, "rad/s") + " at t = " +
+                    rounded(spin->time, "s") + ", at most " + rounded(spin->largest, "rad/s") +
+                    "; beyond " + rounded(m.largest_rate, "rad/s") +
                     " the centrifugal loads that it lacks are more than 1 % of its stiffness");
+  }
   return out;
 }
 

@@ -15,7 +15,6 @@ namespace hydrodae::session {
 struct Crossing {
   double time = 0.0, value = 0.0; ///< of the first sample beyond the limit [s], [rad] or [m]
   double largest = 0.0;           ///< of all samples
-  void remember(Archive& a) { a(time, value, largest); }
 };
 
 /// What is watched of one hydrodynamic body that moves, against its mean pose: the pose of the
@@ -28,18 +27,12 @@ struct LinearLimits {
     Vector3 place = Vector3::Zero();    ///< x, y of the start, z of the reference pose [m]
     bool free_yaw = false;              ///< the hydrodynamics follow the yaw: tilt alone counts
     double half_draught = INFINITY;     ///< [m]
-    std::optional<Crossing> turn;       ///< [rad], beyond `largest_turn`
-    std::optional<Crossing> rise;       ///< vertical [m], beyond half the draught
-    std::optional<Crossing> drift;      ///< horizontal [m], beyond a tenth of the wave length
-    void remember(Archive& a) { a(turn, rise, drift); }
   };
   /// A mode of a body that turns: its centrifugal loads are those of a stiffness -m w^2.
   struct Mode {
     int body = 0;
     std::string name;        ///< of the body, then of the mode
     double largest_rate = 0; ///< at which that is `softening` of its stiffness [rad/s]
-    std::optional<Crossing> spin;
-    void remember(Archive& a) { a(spin); }
   };
   static constexpr double softening = 0.01;
   static constexpr double largest_turn = 15.0 * pi / 180.0; ///< [rad]
@@ -47,12 +40,17 @@ struct LinearLimits {
                                 ///< waves does not follow the bodies [m]
   std::vector<Body> bodies;
   std::vector<Mode> modes;
-  void remember(Archive& a) {
-    for (Body& b : bodies)
-      b.remember(a);
-    for (Mode& m : modes)
-      m.remember(a);
-  }
+
+  struct OfBody {
+    std::optional<Crossing> turn;  ///< [rad], beyond `largest_turn`
+    std::optional<Crossing> rise;  ///< vertical [m], beyond half the draught
+    std::optional<Crossing> drift; ///< horizontal [m], beyond a tenth of the wave length
+  };
+  struct State {
+    std::vector<OfBody> bodies;
+    std::vector<std::optional<Crossing>> spins; ///< of each mode
+  };
+  State state;
 };
 
 /// What to watch in a scene. The draught is not in the database: displaced volume over waterplane,

@@ -20,26 +20,26 @@ SeaSample::SeaSample(const model::Scene& scene, const std::vector<Channel>& chan
 }
 
 void SeaSample::take(double t, double averaged_from, std::span<const double> row) {
-  if (t < averaged_from || columns_.empty() || taken_++ % every_ != 0)
+  if (t < averaged_from || columns_.empty() || state_.taken++ % state_.every != 0)
     return;
   const std::size_t width = columns_.size();
-  if (work_.size() == most_samples * width) {
+  if (state_.work.size() == most_samples * width) {
     for (std::size_t i = 1; i < most_samples / 2; ++i)
-      std::copy_n(work_.begin() + static_cast<long>(2 * i * width), width,
-                  work_.begin() + static_cast<long>(i * width));
-    work_.resize(most_samples / 2 * width);
-    every_ *= 2; // and this row is the next: most_samples is even
+      std::copy_n(state_.work.begin() + static_cast<long>(2 * i * width), width,
+                  state_.work.begin() + static_cast<long>(i * width));
+    state_.work.resize(most_samples / 2 * width);
+    state_.every *= 2; // and this row is the next: most_samples is even
   }
   for (const Column& column : columns_)
-    work_.push_back(row[column.place]);
+    state_.work.push_back(row[column.place]);
 }
 
 void SeaSample::write(RunStatistics& statistics) const {
   statistics.sea_period = period_;
   if (columns_.empty() || statistics.mean_power.empty())
     return;
-  const std::size_t width = columns_.size(), samples = work_.size() / width;
-  const double least = sampling_periods * period_, step = static_cast<double>(every_) * step_;
+  const std::size_t width = columns_.size(), samples = state_.work.size() / width;
+  const double least = sampling_periods * period_, step = static_cast<double>(state_.every) * step_;
   if (statistics.end_time - statistics.mean_power_from < least)
     statistics.interval_missing = "too short for an interval of the sea state, which needs " +
                                   rounded_text(least, 3) + " s after the ramp";
@@ -54,7 +54,7 @@ void SeaSample::write(RunStatistics& statistics) const {
     for (std::size_t k = 0; k < width; ++k)
       if (columns_[k].name == name)
         for (std::size_t i = 0; i + 1 < samples; ++i)
-          power[i] = (work_[i * width + k] - work_[(i + 1) * width + k]) / step;
+          power[i] = (state_.work[i * width + k] - state_.work[(i + 1) * width + k]) / step;
     statistics.mean_power_interval.push_back(mean_interval(power));
     std::transform(power.begin(), power.end(), total.begin(), total.begin(), std::plus<>());
   }

@@ -1,7 +1,6 @@
 #pragma once
 /// The mean powers of a run as a sample of its sea.
 
-#include "hydrodae/core/archive.h"
 #include "hydrodae/core/channel.h"
 #include "hydrodae/model/scene.h"
 #include "hydrodae/simulation.h"
@@ -24,17 +23,21 @@ public:
   /// Period of the sea, and the intervals of the mean powers that are known already.
   void write(RunStatistics& statistics) const;
 
-  void remember(Archive& a) { a(work_, taken_, every_); }
+  struct State {
+    std::vector<double> work;         ///< one value a column, sample after sample [J]
+    std::size_t taken = 0, every = 1; ///< rows after the ramp; one of so many is kept
+  };
+  const State& state() const { return state_; }
+  void set(State state) { state_ = std::move(state); }
 
 private:
   struct Column {
     std::string name; ///< of the load
     std::size_t place = 0;
   };
-  std::vector<Column> columns_;       ///< of the work of each load; none without an irregular sea
-  double step_, period_;              ///< [s]
-  std::vector<double> work_;          ///< one value a column, sample after sample [J]
-  std::size_t taken_ = 0, every_ = 1; ///< rows after the ramp; one of so many is kept
+  std::vector<Column> columns_; ///< of the work of each load; none without an irregular sea
+  double step_, period_;        ///< [s]
+  State state_;
 };
 
 } // namespace hydrodae::session

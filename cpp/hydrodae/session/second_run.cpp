@@ -18,8 +18,6 @@ namespace {
 constexpr double looser = 10.0;       ///< tolerance of the second run over that of the first
 constexpr double largest_rtol = 1e-2; ///< of a second run; beyond, steps do not follow a tolerance
 
-constexpr const char *of_comparison = "comparison", *of_second = "second_run"; ///< in checkpoints
-
 /// Answers of a controller, each with its sampling instant [s].
 using Answers = std::vector<std::pair<double, std::vector<double>>>;
 
@@ -37,15 +35,21 @@ public:
   bool hears_crossings() const override { return law_->hears_crossings(); }
   void crossed(double t) override { law_->crossed(t); }
   double next_time(double t) const override { return law_->next_time(t); }
-  void remember(Archive& a) override {
-    law_->remember(a);
-    a(*answers_);
+  std::string state() override { return to_bytes(State{law_->state(), *answers_}); }
+  void set(const std::string& bytes) override {
+    auto from = from_bytes<State>(bytes);
+    law_->set(from.law);
+    *answers_ = std::move(from.answers);
   }
   void restored(double t) override { law_->restored(t); }
   std::vector<std::string> unit_notes() const override { return law_->unit_notes(); }
   void finish(const std::string& error) override { law_->finish(error); }
 
 private:
+  struct State {
+    std::string law;
+    Answers answers;
+  };
   std::unique_ptr<control::Law> law_;
   std::shared_ptr<Answers> answers_;
 };
@@ -153,8 +157,8 @@ SecondRun::SecondRun(SecondRunPlan plan, accuracy::Comparison& comparison,
                      const run::Checkpoint* from)
     : plan_(std::move(plan)), comparison_(comparison) {
   if (from) {
-    hydrodae::restore(from->output, of_comparison, comparison_);
-    hydrodae::restore(from->output, of_second, next_);
+    comparison_.set(from_bytes<accuracy::Comparison::State>(from->comparison));
+    next_ = from->next;
     from_ = from->second;
     stopped_ = from->stopped;
   }
@@ -173,8 +177,8 @@ void SecondRun::save(run::Checkpoint& checkpoint) {
   if (!has_ended_)
     checkpoint.second = std::move(saved_);
   checkpoint.stopped = stopped_;
-  hydrodae::save(checkpoint.output, of_comparison, comparison_);
-  hydrodae::save(checkpoint.output, of_second, next_);
+  checkpoint.comparison = to_bytes(comparison_.state());
+  checkpoint.next = next_;
   changed_.notify_all();
   lock.unlock();
   comparison_.let_pass(false);

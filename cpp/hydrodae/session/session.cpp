@@ -51,7 +51,7 @@ public:
   /// Goes on from a checkpoint, with the rows that were written before it.
   void resume(const std::string& path, const run::Checkpoint& from) {
     simulation_.restore(from.state);
-    restore(from.output, "session", *this);
+    set(from_bytes<State>(from.output));
     statistics_.end_time = last_sample_;
     const auto count = static_cast<std::size_t>(next_);
     const io::EarlierRows before(path, simulation_.channels(), count, last_sample_);
@@ -97,15 +97,28 @@ public:
   }
 
   /// What the rows so far have left behind.
-  void remember(Archive& a) {
-    a(next_, last_sample_, limits_, sea_sample_);
-    double solver = simulation_.solver_time() + solver_before_,
-           wall = seconds_since(started_) + wall_before_;
-    a(solver, wall);
-    if (!a.saves()) {
-      solver_before_ = solver;
-      wall_before_ = wall;
-    }
+  struct State {
+    long next = 0;            ///< sample
+    double last_sample = 0.0; ///< time of the one before [s]
+    LinearLimits::State limits;
+    SeaSample::State sea;
+    double solver = 0.0, wall = 0.0; ///< wall time inside the method, and of all [s]
+  };
+  State state() const {
+    return {next_,
+            last_sample_,
+            limits_.state,
+            sea_sample_.state(),
+            solver_before_ + simulation_.solver_time(),
+            wall_before_ + seconds_since(started_)};
+  }
+  void set(State state) {
+    next_ = state.next;
+    last_sample_ = state.last_sample;
+    limits_.state = std::move(state.limits);
+    sea_sample_.set(std::move(state.sea));
+    solver_before_ = state.solver;
+    wall_before_ = state.wall;
   }
 
 private:
@@ -170,8 +183,7 @@ private:
         (!stops && seconds_since(last_checkpoint_) < checkpoint_))
       return;
     file_->flush();
-    run::Checkpoint checkpoint{simulation_.state(), {}, {}, verify_, ""};
-    save(checkpoint.output, "session", *this);
+    run::Checkpoint checkpoint{simulation_.state(), to_bytes(state()), {}, "", 0, verify_, ""};
     if (second_)
       second_->save(checkpoint);
     run::write_checkpoint(path_, scene(), checkpoint);

@@ -60,10 +60,10 @@ History::History(const Regime& system, const SolverOptions& options)
   n_U_ = c.empty() ? 0 : s_.hydro.n_moving;
   for (const DelayData& d : s_.delays)
     keep_ = std::max(keep_, d.time);
-  point_value_.resize(static_cast<std::size_t>(n_U_));
+  state_.point_value.resize(static_cast<std::size_t>(n_U_));
   grid_ = MatrixX::Zero(c.splines.rows(), n_U_);
   piece_grid_ = MatrixX::Zero(c.splines.rows(), 2);
-  largest_ = strength_ = VectorX::Zero(n_U_);
+  state_.largest = strength_ = VectorX::Zero(n_U_);
   for (int p = 0; p < c.n_moving_pairs; ++p) {
     const auto [row, column] = c.pairs[static_cast<std::size_t>(p)];
     if (const double mass = s_.hydro.added_mass(row, row); row == column && mass > 0.0)
@@ -148,9 +148,9 @@ void History::add_points(const Node& from, const Node& to, const MatrixX& value)
                  [&](double t, double weight, double x) {
                    chebyshev_weights(points, x, weights_);
                    U.noalias() = value.topRows(n_U_) * weights_;
-                   point_time_.push_back(t);
+                   state_.point_time.push_back(t);
                    for (int u = 0; u < n_U_; ++u)
-                     point_value_[static_cast<std::size_t>(u)].push_back(weight * U[u]);
+                     state_.point_value[static_cast<std::size_t>(u)].push_back(weight * U[u]);
                  });
 }
 
@@ -165,19 +165,20 @@ void History::judge(const Node& from, const Node& to, const MatrixX& value) {
   VectorX missed = VectorX::Zero(n_U_);
   for (Eigen::Index k = 0; k < x.size(); ++k) {
     missed = missed.cwiseMax((value.col(k) - between(from, to, x[k])).head(n_U_).cwiseAbs());
-    largest_ = largest_.cwiseMax(value.col(k).head(n_U_).cwiseAbs());
+    state_.largest = state_.largest.cwiseMax(value.col(k).head(n_U_).cwiseAbs());
   }
   double most = 0.0;
   for (int u = 0; u < n_U_; ++u)
-    if (largest_[u] > 0.0)
-      most = std::max(most, strength_[u] * h * h * 8.0 / 15.0 * missed[u] / (rtol_ * largest_[u]));
-  longest_ = 0.9 * h * std::pow(most, -1.0 / 6.0);
+    if (state_.largest[u] > 0.0)
+      most = std::max(most,
+                      strength_[u] * h * h * 8.0 / 15.0 * missed[u] / (rtol_ * state_.largest[u]));
+  state_.longest = 0.9 * h * std::pow(most, -1.0 / 6.0);
 }
 
 /// Does a delayed rate jump at the last node, by more than the tolerance?
 bool History::rates_jump(const VectorX& value) const {
   for (Eigen::Index k = n_U_ + 1; k < value.size(); k += 2) {
-    const double before = nodes_.empty() ? 0.0 : nodes_.back().value[k];
+    const double before = state_.nodes.empty() ? 0.0 : state_.nodes.back().value[k];
     if (std::abs(value[k] - before) > rtol_ * std::max(std::abs(value[k]), std::abs(before)))
       return true;
   }
@@ -188,66 +189,75 @@ void History::append(double t, const VectorX& y, const VectorX& yp, const Inside
                      int degree) {
   Node node;
   node.t = t;
-  jumps_ = false;
-  if (nodes_.empty() || t <= last_time()) {
+  state_.jumps = false;
+  if (state_.nodes.empty() || t <= last_time()) {
     signals(t, y, yp, node);
-    if (nodes_.empty()) {
-      first_ = node.value;
-      start_ = t;
+    if (state_.nodes.empty()) {
+      state_.first = node.value;
+      state_.start = t;
     }
     kinks_.add(t, rates_jump(node.value) ? 1 : 2);
   } else {
-    const Node& from = nodes_.back();
+    const Node& from = state_.nodes.back();
     const MatrixX value = follow(from, node, y, yp, inside, degree);
     add_points(from, node, value);
     judge(from, node, value);
     if (!s_.delays.empty())
-      pieces_.push_back({from.t, t, value.bottomRows(value.rows() - n_U_)});
-    jumps_ = kinks_.pass(t) <= 2;
+      state_.pieces.push_back({from.t, t, value.bottomRows(value.rows() - n_U_)});
+    state_.jumps = kinks_.pass(t) <= 2;
   }
-  node.points = dropped_ + point_time_.size();
-  nodes_.push_back(std::move(node));
+  node.points = state_.dropped + state_.point_time.size();
+  state_.nodes.push_back(std::move(node));
   forget();
   for (Past& past : memo_)
     past.known = false;
 }
 
-void History::remember(Archive& a) {
-  a(nodes_, pieces_, first_, start_, kinks_, jumps_, longest_, largest_, point_time_, point_value_,
-    dropped_, ws_.turns);
+History::State History::state() const {
+  State out = state_;
+  out.kinks = kinks_.state();
+  out.turns = ws_.turns;
+  return out;
+}
+
+void History::set(State state) {
+  state_ = std::move(state);
+  kinks_.set(state_.kinks);
+  ws_.turns = state_.turns;
   for (Past& past : memo_)
     past.known = false;
 }
 
 /// Lets go what no time from the last accepted point but one on will ask for.
 void History::forget() {
-  if (nodes_.size() < 2)
+  if (state_.nodes.size() < 2)
     return;
-  const double from = nodes_[nodes_.size() - 2].t;
-  const auto old_points = static_cast<std::size_t>(
-      std::lower_bound(point_time_.begin(), point_time_.end(), from - s_.hydro.convolution.length) -
-      point_time_.begin());
-  if (old_points > few && 2 * old_points > point_time_.size()) {
-    point_time_.erase(point_time_.begin(),
-                      point_time_.begin() + static_cast<std::ptrdiff_t>(old_points));
-    for (std::vector<double>& values : point_value_)
+  const double from = state_.nodes[state_.nodes.size() - 2].t;
+  const auto old_points =
+      static_cast<std::size_t>(std::lower_bound(state_.point_time.begin(), state_.point_time.end(),
+                                                from - s_.hydro.convolution.length) -
+                               state_.point_time.begin());
+  if (old_points > few && 2 * old_points > state_.point_time.size()) {
+    state_.point_time.erase(state_.point_time.begin(),
+                            state_.point_time.begin() + static_cast<std::ptrdiff_t>(old_points));
+    for (std::vector<double>& values : state_.point_value)
       values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(old_points));
-    dropped_ += old_points;
+    state_.dropped += old_points;
   }
   const auto old_pieces =
-      std::lower_bound(pieces_.begin(), pieces_.end(), from - keep_ - rounding(from),
+      std::lower_bound(state_.pieces.begin(), state_.pieces.end(), from - keep_ - rounding(from),
                        [](const Piece& piece, double time) { return piece.to < time; }) -
-      pieces_.begin();
-  if (static_cast<std::size_t>(old_pieces) > few || 2 * old_pieces > std::ssize(pieces_))
-    pieces_.erase(pieces_.begin(), pieces_.begin() + old_pieces);
-  if (nodes_.size() > 3)
-    nodes_.erase(nodes_.begin());
+      state_.pieces.begin();
+  if (static_cast<std::size_t>(old_pieces) > few || 2 * old_pieces > std::ssize(state_.pieces))
+    state_.pieces.erase(state_.pieces.begin(), state_.pieces.begin() + old_pieces);
+  if (state_.nodes.size() > 3)
+    state_.nodes.erase(state_.nodes.begin());
 }
 
 /// The last node at or before t; without one, the first.
 std::size_t History::node_before(double t) const {
-  std::size_t k = nodes_.size() - 1;
-  while (k > 0 && nodes_[k].t > t)
+  std::size_t k = state_.nodes.size() - 1;
+  while (k > 0 && state_.nodes[k].t > t)
     --k;
   return k;
 }
@@ -266,9 +276,10 @@ Eigen::Index History::gather_steps(double t, std::size_t node) const {
   const Convolution& c = s_.hydro.convolution;
   const double cells = static_cast<double>(c.splines.rows() - 3); // the kernel ends there
   const double oldest = t - cells * c.step;
-  const auto begin = point_time_.begin(),
-             end = begin +
-                   static_cast<std::ptrdiff_t>(std::max(nodes_[node].points, dropped_) - dropped_);
+  const auto begin = state_.point_time.begin(),
+             end =
+                 begin + static_cast<std::ptrdiff_t>(
+                             std::max(state_.nodes[node].points, state_.dropped) - state_.dropped);
   const auto first = std::upper_bound(begin, end, oldest);
   const double per_step = 1.0 / c.step;
   const double span = first == end ? 0.0 : (t - *first) * per_step;
@@ -279,12 +290,12 @@ Eigen::Index History::gather_steps(double t, std::size_t node) const {
              to = static_cast<std::size_t>(end - begin);
   const auto last_cell = static_cast<std::ptrdiff_t>(cells) - 1; // against rounding
   for (std::size_t p = from; p < to; ++p) {
-    const double x = (t - point_time_[p]) * per_step; // > 0
+    const double x = (t - state_.point_time[p]) * per_step; // > 0
     const std::ptrdiff_t cell = std::min(static_cast<std::ptrdiff_t>(x), last_cell);
     const std::array<double, 4> b = bspline_weights(x - static_cast<double>(cell));
     double* column = grid_.data() + cell;
     for (int u = 0; u < n_U_; ++u, column += grid_.rows()) {
-      const double value = point_value_[static_cast<std::size_t>(u)][p];
+      const double value = state_.point_value[static_cast<std::size_t>(u)][p];
       for (std::size_t k = 0; k < 4; ++k)
         column[k] += value * b[k];
     }
@@ -296,7 +307,7 @@ Eigen::Index History::gather_steps(double t, std::size_t node) const {
 /// in use, and the factors of U(t), U'(t) apart. Returns how many rows the piece reaches.
 Eigen::Index History::gather_piece(double t, std::size_t node, Eigen::Index rows) const {
   const Convolution& c = s_.hydro.convolution;
-  const Node& from = nodes_[node];
+  const Node& from = state_.nodes[node];
   const double h = t - from.t;
   const double cells = static_cast<double>(c.splines.rows() - 3);
   const Eigen::Index reach = std::min<Eigen::Index>(
@@ -348,17 +359,18 @@ void History::sum_pairs(bool locked, Eigen::Index rows, Eigen::Index piece_rows,
 std::array<double, 2> History::delayed(int delay, double t) const {
   const double tau = s_.delays[static_cast<std::size_t>(delay)].time, then = t - tau,
                same = rounding(std::max(std::abs(t), tau));
-  const bool ahead = std::any_of(nodes_.rbegin(),
-                                 nodes_.rbegin() + std::min<std::ptrdiff_t>(2, std::ssize(nodes_)),
-                                 [t](const Node& node) { return node.t == t; });
+  const bool ahead =
+      std::any_of(state_.nodes.rbegin(),
+                  state_.nodes.rbegin() + std::min<std::ptrdiff_t>(2, std::ssize(state_.nodes)),
+                  [t](const Node& node) { return node.t == t; });
   const double from = ahead ? then + same : then - same; // in the piece that is meant
   const Eigen::Index k = 2 * delay;
-  if (from <= start_)
-    return {first_[n_U_ + k], 0.0};
-  const auto piece = std::lower_bound(pieces_.begin(), pieces_.end(), from,
+  if (from <= state_.start)
+    return {state_.first[n_U_ + k], 0.0};
+  const auto piece = std::lower_bound(state_.pieces.begin(), state_.pieces.end(), from,
                                       [](const Piece& one, double time) { return one.to < time; });
-  if (piece == pieces_.end()) // patterns and poses are looked at whatever the time
-    return {nodes_.back().value[n_U_ + k], nodes_.back().value[n_U_ + k + 1]};
+  if (piece == state_.pieces.end()) // patterns and poses are looked at whatever the time
+    return {state_.nodes.back().value[n_U_ + k], state_.nodes.back().value[n_U_ + k + 1]};
   const double x = (then - piece->from) / (piece->to - piece->from);
   chebyshev_weights(chebyshev_points(piece->value.cols()), x, weights_);
   return {piece->value.row(k).dot(weights_), piece->value.row(k + 1).dot(weights_)};
@@ -372,8 +384,8 @@ void History::evaluate(double t, bool locked, Past& out) const {
     out.delayed[d] = delayed(static_cast<int>(d), t);
   if (n_U_ == 0)
     return;
-  if (nodes_.size() > 1) // patterns and poses are looked at whatever the time
-    t = std::max(t, nodes_[nodes_.size() - 2].t);
+  if (state_.nodes.size() > 1) // patterns and poses are looked at whatever the time
+    t = std::max(t, state_.nodes[state_.nodes.size() - 2].t);
   const std::size_t node = node_before(t);
   const Eigen::Index rows = gather_steps(t, node), piece = gather_piece(t, node, rows);
   sum_pairs(locked, std::max(rows, piece), piece, out);

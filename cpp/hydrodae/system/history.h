@@ -56,31 +56,44 @@ public:
   /// threads at once.
   const Past& at(double t, bool locked = false) const;
 
-  double last_time() const { return nodes_.back().t; }
+  double last_time() const { return state_.nodes.back().t; }
 
   /// Where the next step is to end for a method of this order [s]: a kink of the past comes up.
   double next_kink(int order) const { return kinks_.next(order); }
 
   /// Have the accelerations jumped at the last accepted point, as the past has?
-  bool jumps() const { return jumps_; }
+  bool jumps() const { return state_.jumps; }
 
   /// How long the next step may be for the cubic at its trial end [s].
-  double longest_step() const { return longest_; }
+  double longest_step() const { return state_.longest; }
 
-  void remember(Archive& a);
-
-private:
   struct Node {
     double t = 0.0;
     VectorX value, rate;    ///< (n_signals,) U and U'; of each delay s and s', then s' and s''
     std::size_t points = 0; ///< quadrature points up to here, since the start
-    void remember(Archive& a) { a(t, value, rate, points); }
   };
   struct Piece { ///< polynomial over a step
     double from = 0.0, to = 0.0;
     MatrixX value; ///< (2 n_delays, n) at Chebyshev points
-    void remember(Archive& a) { a(from, to, value); }
   };
+  struct State {
+    std::vector<Node> nodes;   ///< the last accepted points
+    std::vector<Piece> pieces; ///< accepted steps
+    VectorX first;             ///< signals at the start
+    double start = 0.0;        ///< [s]
+    bool jumps = false;
+    double longest = INFINITY; ///< step [s]
+    VectorX largest;           ///< (n_U,) |U| so far
+    std::vector<double> point_time;
+    std::vector<std::vector<double>> point_value; ///< per channel: weight times U
+    std::size_t dropped = 0;                      ///< points forgotten since the start
+    Kinks::State kinks;
+    Turns turns; ///< at the last accepted point
+  };
+  State state() const;
+  void set(State state);
+
+private:
   void forget();
   void signals(double t, const VectorX& y, const VectorX& yp, Node& node);
   MatrixX follow(const Node& from, Node& to, const VectorX& y, const VectorX& yp,
@@ -100,20 +113,12 @@ private:
   const Regime& s_;
   const double rtol_;
   Workspace<double> ws_;
-  int n_U_ = 0;               ///< channels of the convolution
-  double keep_ = 0.0;         ///< longest delay [s]
-  std::vector<Node> nodes_;   ///< the last accepted points
-  std::vector<Piece> pieces_; ///< accepted steps
-  VectorX first_;             ///< signals at the start
-  double start_ = 0.0;        ///< [s]
+  int n_U_ = 0;       ///< channels of the convolution
+  double keep_ = 0.0; ///< longest delay [s]
   Kinks kinks_;
-  bool jumps_ = false;
-  double longest_ = INFINITY;
-  VectorX largest_, strength_; ///< (n_U,) |U| so far; kernel over added mass [1/s2]
-  std::vector<double> point_time_;
-  std::vector<std::vector<double>> point_value_; ///< per channel: weight times U
-  std::size_t dropped_ = 0;                      ///< points forgotten since the start
-  VectorX y_, yp_;                               ///< scratch, inside a step
+  VectorX strength_; ///< (n_U,) kernel over added mass [1/s2]
+  State state_;      ///< but for the kinks and the turns, which others keep
+  VectorX y_, yp_;   ///< scratch, inside a step
   // Memory of recent times, and scratch: U scattered onto the kernel's grid.
   mutable std::vector<Past> memo_;
   mutable std::size_t next_ = 0;

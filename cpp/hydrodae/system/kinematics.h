@@ -5,7 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "hydrodae/core/archive.h"
 #include "hydrodae/system/turning.h"
 
 namespace hydrodae::system {
@@ -21,7 +20,6 @@ struct Turns {
   double time = 0.0;
   bool known = false; ///< else the values are near those of the start, and the rates are not known
   std::vector<double> value, rate;
-  void remember(Archive& a) { a(time, known, value, rate); }
 };
 
 /// d (w x I w) / dw, of the moment that turns the spin of a body [kg m2/s]; I, w in body axes.

@@ -31,12 +31,12 @@ Kinks::Kinks(std::vector<double> delays, double time, double longest, double rto
 void Kinks::expect(double t, int derivative) {
   if (derivative > highest_)
     return;
-  const auto at = std::lower_bound(coming_.begin(), coming_.end(), t - rounding_of(t),
+  const auto at = std::lower_bound(state_.coming.begin(), state_.coming.end(), t - rounding_of(t),
                                    [](const Kink& k, double time) { return k.t < time; });
-  if (at != coming_.end() && at->t <= t + rounding_of(t))
+  if (at != state_.coming.end() && at->t <= t + rounding_of(t))
     at->derivative = std::min(at->derivative, derivative);
   else
-    coming_.insert(at, {t, derivative});
+    state_.coming.insert(at, {t, derivative});
 }
 
 void Kinks::add(double t, int derivative) {
@@ -46,9 +46,9 @@ void Kinks::add(double t, int derivative) {
 
 int Kinks::pass(double t) {
   int lowest = none;
-  while (!coming_.empty() && coming_.front().t <= t + rounding_of(t)) {
-    const Kink kink = coming_.front();
-    coming_.erase(coming_.begin());
+  while (!state_.coming.empty() && state_.coming.front().t <= t + rounding_of(t)) {
+    const Kink kink = state_.coming.front();
+    state_.coming.erase(state_.coming.begin());
     if (kink.t >= t - rounding_of(t))
       lowest = std::min(lowest, kink.derivative);
     add(kink.t, kink.derivative);
@@ -59,7 +59,7 @@ int Kinks::pass(double t) {
 /// A method of order p sees derivatives of s up to p + 1: a jump of a higher one is below its own
 /// error.
 double Kinks::next(int order) const {
-  for (const Kink& kink : coming_)
+  for (const Kink& kink : state_.coming)
     if (kink.derivative <= order + 1)
       return kink.t;
   return INFINITY;

@@ -1,9 +1,8 @@
 #pragma once
 /// Where the past of a delay is not smooth.
 
+#include <utility>
 #include <vector>
-
-#include "hydrodae/core/archive.h"
 
 namespace hydrodae::system {
 
@@ -26,21 +25,24 @@ public:
   /// The next one that a method of this order notices [s].
   double next(int order) const;
 
-  void remember(Archive& a) { a(coming_); }
-
   static constexpr int none = 1000;
 
-private:
   struct Kink {
     double t = 0.0;
     int derivative = 0;
-    void remember(Archive& a) { a(t, derivative); }
   };
+  struct State {
+    std::vector<Kink> coming; ///< in their order
+  };
+  const State& state() const { return state_; }
+  void set(State state) { state_ = std::move(state); }
+
+private:
   void expect(double t, int derivative);
 
   std::vector<double> delays_;
-  int highest_ = 0;          ///< derivative whose jump a step may notice
-  std::vector<Kink> coming_; ///< in their order
+  int highest_ = 0; ///< derivative whose jump a step may notice
+  State state_;
 };
 
 } // namespace hydrodae::system

@@ -40,9 +40,8 @@ VectorX displacements(const Regime& s, const VectorX& from, const VectorX& y) {
 
 MotionScale::MotionScale(Regime& s, const Pattern& pattern, const VectorX& y, const VectorX& yp,
                          const VectorX& forced, double hold, double rtol)
-    : s_(s), start_(y.head(s.n_q)), expected_(forced), reached_(VectorX::Zero(s.n_groups)),
-      least_(VectorX::Zero(s.n_groups)), expected_translation_(forced), translated_(reached_),
-      hold_(VectorX::Constant(s.n_groups, hold)), since_(VectorX::Zero(s.n_groups)) {
+    : s_(s), start_(y.head(s.n_q)), least_(VectorX::Zero(s.n_groups)),
+      hold_(VectorX::Constant(s.n_groups, hold)), state_{forced, least_, forced, least_, least_} {
   for (const BodyData& b : s.bodies)
     if (b.group >= 0) {
       constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -103,26 +102,28 @@ bool MotionScale::begin_again(const Pattern& pattern, double t, const VectorX& y
                               const VectorX& yp) {
   if (!s_.scales_follow)
     return false;
-  const VectorX expected = std::exchange(expected_, VectorX::Zero(s_.n_groups)),
-                translation = std::exchange(expected_translation_, VectorX::Zero(s_.n_groups));
+  const VectorX expected = std::exchange(state_.expected, VectorX::Zero(s_.n_groups)),
+                translation =
+                    std::exchange(state_.expected_translation, VectorX::Zero(s_.n_groups));
   expect_start(pattern, t, y, yp);
   bool grows = false;
   for (Index g = 0; g < s_.n_groups; ++g) {
-    if (std::min(expected_[g] / full, 1.0) > slack_of_scales * s_.motion_scale[g]) {
-      since_[g] = t;
+    if (std::min(state_.expected[g] / full, 1.0) > slack_of_scales * s_.motion_scale[g]) {
+      state_.since[g] = t;
       grows = true;
     } else {
-      expected_[g] = expected[g];
-      expected_translation_[g] = translation[g];
+      state_.expected[g] = expected[g];
+      state_.expected_translation[g] = translation[g];
     }
   }
   return grows && update(t);
 }
 
 void MotionScale::expect(const BodyData& body, bool translation, double motion) {
-  expected_[body.group] = std::max(expected_[body.group], motion);
+  state_.expected[body.group] = std::max(state_.expected[body.group], motion);
   if (translation)
-    expected_translation_[body.group] = std::max(expected_translation_[body.group], motion);
+    state_.expected_translation[body.group] =
+        std::max(state_.expected_translation[body.group], motion);
 }
 
 bool MotionScale::update(double t) {
@@ -134,13 +135,13 @@ bool MotionScale::update(double t) {
     scale = wanted;
   };
   for (Index g = 0; g < s_.n_groups; ++g) {
-    const double left = std::exp(-std::max(0.0, (t - since_[g]) / hold_[g] - 1.0));
+    const double left = std::exp(-std::max(0.0, (t - state_.since[g]) / hold_[g] - 1.0));
     const auto part = [&](double reached, double expected) {
       return std::clamp(std::max(reached, left * expected) / full, least_[g], 1.0);
     };
-    set(s_.motion_scale[g], part(reached_[g], expected_[g]));
+    set(s_.motion_scale[g], part(state_.reached[g], state_.expected[g]));
     set(s_.translation_scale[g],
-        std::clamp(part(translated_[g], expected_translation_[g]) / s_.motion_scale[g],
+        std::clamp(part(state_.translated[g], state_.expected_translation[g]) / s_.motion_scale[g],
                    least_translation, 1.0));
   }
   if (changed)
@@ -152,22 +153,21 @@ void MotionScale::accept(double t, const VectorX& y) {
   bool grown = false;
   const VectorX moved = displacements(s_, start_, y);
   for (std::size_t i = 0; i < s_.bodies.size(); ++i)
-    if (const int g = s_.bodies[i].group; g >= 0 && moved[static_cast<Index>(i)] > reached_[g]) {
-      reached_[g] = moved[static_cast<Index>(i)];
+    if (const int g = s_.bodies[i].group;
+        g >= 0 && moved[static_cast<Index>(i)] > state_.reached[g]) {
+      state_.reached[g] = moved[static_cast<Index>(i)];
       grown = true;
     }
   for (const BodyData& b : s_.bodies)
     if (b.group >= 0)
-      translated_[b.group] = std::max(translated_[b.group], translation(b, start_, y));
+      state_.translated[b.group] = std::max(state_.translated[b.group], translation(b, start_, y));
   if (s_.scales_follow && (grown || (s_.motion_scale.array() > least_.array()).any()))
     update(t);
 }
 
-void MotionScale::remember(Archive& a) {
-  a(reached_, translated_, expected_, expected_translation_, since_, s_.motion_scale,
-    s_.translation_scale);
-  if (!a.saves())
-    set_scales(s_);
+void MotionScale::set(State state) {
+  state_ = std::move(state);
+  set_scales(s_);
 }
 
 std::vector<std::string> MotionScale::notes() const {
@@ -175,11 +175,11 @@ std::vector<std::string> MotionScale::notes() const {
   if (!s_.scales_follow)
     return out;
   for (Index g = 0; g < s_.n_groups; ++g) {
-    if (reached_[g] == 0.0 || reached_[g] / full >= least_[g])
+    if (state_.reached[g] == 0.0 || state_.reached[g] / full >= least_[g])
       continue;
     const auto first = std::find_if(s_.bodies.begin(), s_.bodies.end(),
                                     [&](const BodyData& b) { return b.group == g; });
-    out.push_back("body '" + first->name + "' moves by " + number_text(reached_[g]) +
+    out.push_back("body '" + first->name + "' moves by " + number_text(state_.reached[g]) +
                   " of its lever only: rounding of its position keeps the tolerance at that of " +
                   number_text(full * least_[g]));
   }

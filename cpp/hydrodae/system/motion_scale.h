@@ -36,18 +36,26 @@ public:
   bool begin_again(const Pattern& pattern, double t, const VectorX& y, const VectorX& yp);
 
   /// Largest displacement so far from the start, by group in levers or rad (n_groups,).
-  const VectorX& reached() const { return reached_; }
+  const VectorX& reached() const { return state_.reached; }
 
   /// Has nothing moved by more than rounding? So it is where nothing can move.
   bool at_rest() const {
-    return s_.lambda0 == 0 || (reached_.size() > 0 && reached_.maxCoeff() < rest_motion);
+    return s_.lambda0 == 0 ||
+           (state_.reached.size() > 0 && state_.reached.maxCoeff() < rest_motion);
   }
 
   /// Groups whose motion is below what rounding lets the tolerance follow.
   std::vector<std::string> notes() const;
 
-  /// Restoring it, the scales of the system are those of then.
-  void remember(Archive& a);
+  struct State { ///< by group (n_groups,)
+    VectorX expected, reached;
+    VectorX expected_translation, translated;
+    VectorX since; ///< time from which on the expected motion is believed [s]
+  };
+  const State& state() const { return state_; }
+
+  /// The scales of the system are those that its Held has.
+  void set(State state);
 
 private:
   void expect_start(const Pattern& pattern, double t, const VectorX& y, const VectorX& yp);
@@ -55,11 +63,10 @@ private:
   bool update(double t);
 
   Regime& s_;
-  VectorX start_;                      ///< positions (n_q,)
-  VectorX expected_, reached_, least_; ///< by group
-  VectorX expected_translation_, translated_;
+  VectorX start_; ///< positions (n_q,)
+  VectorX least_; ///< by group
   VectorX hold_;  ///< by group [s]
-  VectorX since_; ///< by group: time from which on the expected motion is believed [s]
+  State state_;
 };
 
 /// Displacement of each body from the positions `from` (n_q,): translations over the lever, or the

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hydrodae/core/error.h"
 #include "hydrodae/system/names.h"
 #include "hydrodae/system/turning.h"
 
@@ -35,11 +36,22 @@ void set_offsets(Regime& s) {
       s.algebraic[static_cast<std::size_t>(block.first) + k] = block.unknowns[k].algebraic;
 }
 
+/// Into a list that stays where it is: programs hold pointers to its numbers.
+template <class List> void put(const List& from, List& to) {
+  if (from.size() != to.size())
+    throw Error("the state is of another scene than the run");
+  if constexpr (requires { from[0][0]; })
+    for (std::size_t k = 0; k < from.size(); ++k)
+      put(from[k], to[k]);
+  else
+    std::copy(from.begin(), from.end(), to.begin());
+}
+
 } // namespace
 
-Regime::Regime(const System& s)
-    : system(s), modes(s.switches.size(), Mode::open), motion_scale(VectorX::Ones(s.n_groups)),
-      translation_scale(motion_scale) {
+Regime::Regime(const System& s) : system(s) {
+  modes.assign(s.switches.size(), Mode::open);
+  motion_scale = translation_scale = VectorX::Ones(s.n_groups);
   for (const ElementList& list : elements)
     signals.push_back(list.laws->signals);
   lags.resize(signals.size());
@@ -55,6 +67,17 @@ Regime::Regime(const System& s, const std::vector<Mode>& given) : Regime(s) {
   for (const SwitchData& element : switches)
     set_mode(*this, element, given[element.number]);
   lay_out(*this);
+}
+
+void Regime::set(const Held& from) {
+  put(from.modes, modes);
+  put(from.signals, signals);
+  put(from.lags, lags);
+  put(from.static_loads, static_loads);
+  put(from.rates, rates);
+  put(from.nearby, nearby);
+  put(from.motion_scale, motion_scale);
+  put(from.translation_scale, translation_scale);
 }
 
 std::array<double, 3> Regime::drive(const CouplerData& c, double t) const {

@@ -3,7 +3,6 @@
 /// what programs and events have set. All that changes between two accepted steps, apart from y, is
 /// here; the System itself is constant.
 
-#include "hydrodae/core/archive.h"
 #include "hydrodae/system/system.h"
 
 namespace hydrodae::system {
@@ -30,10 +29,21 @@ struct Lag {
     return time > 0.0 && from != target ? target + (from - target) * std::exp((since - t) / time)
                                         : target;
   }
-  void remember(Archive& a) { a(since, from); }
 };
 
-struct Regime {
+/// What events and programs have set.
+struct Held {
+  std::vector<SwitchData::State> modes;     ///< (n_switches,)
+  std::vector<std::vector<double>> signals; ///< of the laws of each list
+  std::vector<std::vector<Lag>> lags; ///< of the first signals of each list; empty: none has one
+  std::vector<double> static_loads;   ///< (n_switches,) of dry friction
+  std::vector<double> rates;          ///< (n_couplers,) constant part of drives at velocity level
+  std::vector<double> nearby;         ///< Turns::value near those now: they fix the turn
+  VectorX motion_scale;               ///< (n_groups,) part of the full scales that its motion takes
+  VectorX translation_scale;          ///< (n_groups,) of which its translations take so much
+};
+
+struct Regime : Held {
   using Mode = SwitchData::State;
 
   /// As a run begins: stabilised, no switch holds, inputs as the case gives them. The system must
@@ -75,15 +85,10 @@ struct Regime {
   /// been at rest for ever.
   const History* history = nullptr;
 
-  // What events and programs have set.
-  std::vector<Mode> modes;                  ///< (n_switches,)
-  std::vector<std::vector<double>> signals; ///< of the laws of each list
-  std::vector<std::vector<Lag>> lags; ///< of the first signals of each list; empty: none has one
-  std::vector<double> static_loads;   ///< (n_switches,) of dry friction
-  std::vector<double> rates;          ///< (n_couplers,) constant part of drives at velocity level
-  std::vector<double> nearby;         ///< Turns::value near those now: they fix the turn
-  VectorX motion_scale;               ///< (n_groups,) part of the full scales that its motion takes
-  VectorX translation_scale;          ///< (n_groups,) of which its translations take so much
+  const Held& state() const { return *this; }
+
+  /// Then `lay_out` has to be called. Throws Error for what another system holds.
+  void set(const Held& held);
 
   // What follows from that: the layout of y and of the residual.
   Index n = 0;                        ///< unknowns

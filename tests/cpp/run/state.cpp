@@ -9,7 +9,7 @@
 #include <fstream>
 #include <limits>
 
-#include "hydrodae/io/memory_file.h"
+#include "hydrodae/io/byte_file.h"
 
 using namespace hydrodae;
 
@@ -20,19 +20,28 @@ run::State example() {
   s.time = 0.1 + 0.2;
   s.y = VectorX::LinSpaced(5, -1.0, 1.0 / 3.0);
   s.yp = VectorX::Constant(5, std::numeric_limits<double>::denorm_min());
-  s.memory = {{"empty", {}}, {"run", {INFINITY, -0.0, 1e300}}};
   s.scene = "some scene";
+  s.held.signals = {{INFINITY, -0.0, 1e300}, {}};
+  s.methods.changes = {{run::MethodChange::Cause::guard, "radau", 0.5, "text of a reason"}};
+  s.method = integrate::BdfState{10.0, 3, {7, 0.25}};
+  s.history.emplace().pieces = {{0.0, 0.5, MatrixX::Random(2, 3)}};
+  s.controllers.emplace_back().law = std::string("bytes\0behind", 12);
   return s;
 }
 
-struct Part {
+struct Inner {
   int count = 0;
-  bool flag = false;
   std::optional<double> maybe;
+};
+
+struct Part {
+  Inner inner;
+  bool flag = false;
   std::vector<VectorX> vectors;
   MatrixX matrix;
   std::deque<std::pair<double, VectorX>> past;
-  void remember(Archive& a) { a(count, flag, maybe, vectors, matrix, past); }
+  std::variant<Inner, std::string> either;
+  std::string text;
 };
 
 } // namespace
@@ -54,47 +63,48 @@ TEST_CASE("other bytes are no state") {
   }
 }
 
-TEST_CASE("parts are restored as they were saved") {
+TEST_CASE("a plain struct comes back from its bytes, member by member") {
   Part a;
-  a.count = -7;
+  a.inner = {-7, 0.5};
   a.flag = true;
-  a.maybe = 0.5;
   a.vectors = {VectorX::Ones(2), VectorX()};
   a.matrix = MatrixX::Random(3, 2);
   a.past.emplace_back(1.0, VectorX::Zero(3));
-  Memory memory;
-  save(memory, "part", a);
-  Part b;
-  b.vectors.resize(9);
-  restore(memory, "part", b);
-  CHECK(b.count == -7);
+  a.either = "one of two";
+  a.text = "a text";
+  const std::string bytes = to_bytes(a);
+  const auto b = from_bytes<Part>(bytes);
+  CHECK(b.inner.count == -7);
+  CHECK(b.inner.maybe == 0.5);
   CHECK(b.flag);
-  CHECK(b.maybe == 0.5);
   CHECK(b.vectors == a.vectors);
   CHECK(b.matrix == a.matrix);
   CHECK(b.past == a.past);
-  memory["part"].push_back(0.0);
-  CHECK_THROWS_AS(restore(memory, "part", b), Error);
-  memory["part"].resize(4);
-  CHECK_THROWS_AS(restore(memory, "part", b), Error);
-  CHECK_THROWS_AS(restore(memory, "none", b), Error);
+  CHECK(std::get<std::string>(b.either) == "one of two");
+  CHECK(b.text == "a text");
+  CHECK_THROWS_AS(from_bytes<Part>(bytes + "x"), Error);
+  for (std::size_t length = 0; length < bytes.size(); ++length)
+    CHECK_THROWS_AS(from_bytes<Part>(bytes.substr(0, length)), Error);
 }
 
-TEST_CASE("a file of numbers is replaced in one step") {
+TEST_CASE("a text lies in a state as it is") {
+  CHECK(example().bytes().find("text of a reason") != std::string::npos);
+}
+
+TEST_CASE("a file of bytes is replaced in one step") {
   const std::string path =
-      (std::filesystem::temp_directory_path() / "hydrodae_memory_file.h5").string();
-  io::MemoryFile file;
-  file.texts["format"] = "example";
-  file.groups["state"] = example().numbers();
-  io::write_memory(path, file);
-  file.groups["output"] = {{"rows", {1.0}}};
-  io::write_memory(path, file);
-  const io::MemoryFile back = io::read_memory(path);
+      (std::filesystem::temp_directory_path() / "hydrodae_byte_file.h5").string();
+  io::ByteFile file{{{"format", "example"}}, ""};
+  io::write_bytes(path, file);
+  CHECK(io::read_bytes(path).bytes.empty());
+  file.bytes = example().bytes();
+  io::write_bytes(path, file);
+  const io::ByteFile back = io::read_bytes(path);
   CHECK(back.texts == file.texts);
-  CHECK(back.groups == file.groups);
+  CHECK(back.bytes == file.bytes);
   CHECK_FALSE(std::filesystem::exists(path + ".new"));
   std::ofstream(path) << "no HDF5";
-  CHECK_THROWS_AS(io::read_memory(path), CaseError);
+  CHECK_THROWS_AS(io::read_bytes(path), CaseError);
   std::filesystem::remove(path);
-  CHECK_THROWS_AS(io::write_memory("/no/such/folder/x.h5", file), CaseError);
+  CHECK_THROWS_AS(io::write_bytes("/no/such/folder/x.h5", file), CaseError);
 }
