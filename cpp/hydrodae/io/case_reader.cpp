@@ -202,7 +202,7 @@ read_database(model::Scene& scene, const std::string& directory, const std::stri
   const bool judged = waves && (scene.hydro->axes == "yaw" || radiation == "exponential");
   const HydroTables tables{waves, judged || radiation == "constant", radiation == "convolution"};
   read_file(scene, directory, key, path, what, [&](const std::string& whole) {
-    out = std::make_shared<const hydro::Database>(read_hydro_file(whole, tables));
+    out = shared_hydro_file(whole, tables);
   });
   return out;
 }
