@@ -151,10 +151,11 @@ void bind_simulation(py::module_& module) {
       "The scene as a tree, its unknowns, mobility and redundant rows. Raises CaseError when "
       "the joints cannot\nbe closed.");
   module.attr("lanes") = ensemble::width;
-  module.def("simulate_together", &run_together, py::arg("scenes"),
-             "Run scenes that differ in their seas and take-offs side by side, without samples.\n\n"
-             "Returns for each scene the attributes that its results file would have, or the reason "
-             "(a text)\nwhy it has to be run by itself.");
+  module.def(
+      "simulate_together", &run_together, py::arg("scenes"),
+      "Run scenes that differ in their seas and take-offs side by side, without samples.\n\n"
+      "Returns for each scene the attributes that its results file would have, or the reason "
+      "(a text)\nwhy it has to be run by itself.");
   module.def(
       "simulate", &run, py::arg("scene"), py::arg("output"), py::arg("progress"), py::arg("drives"),
       py::arg("forces") = Functions{}, py::arg("controllers") = Functions{},

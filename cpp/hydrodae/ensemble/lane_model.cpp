@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hydrodae/ensemble/lane_kernels.h"
 #include "hydrodae/system/mechanisms.h"
 #include "hydrodae/system/retract.h"
 
@@ -13,12 +14,13 @@ namespace {
 constexpr double closed = 1e-13;  ///< gaps, in units of their scale
 constexpr double regular = 1e-12; ///< pivots against their entries
 
+const LaneKernels& kernels = lane_kernels();
+
 /// sum_k a_k b_k
 Lanes dot(const Lanes* a, const Lanes* b, Index n) {
-  Lanes sum(0.0);
-  for (Index k = 0; k < n; ++k)
-    sum += a[k] * b[k];
-  return sum;
+  Lanes out;
+  kernels.dot(a, b, n, &out);
+  return out;
 }
 
 } // namespace
@@ -29,10 +31,21 @@ void LaneCholesky::resize(Index n) {
   reciprocal_.assign(static_cast<std::size_t>(n), Lanes(1.0));
 }
 
-HYDRODAE_WIDE void LaneCholesky::factorise(double least, std::array<bool, width>& sound) {
+void LaneCholesky::factorise(double least, std::array<bool, width>& sound) {
+  Lanes sums[4];
   for (Index i = 0; i < n_; ++i) {
     Lanes* a = entries_.data() + i * n_;
-    for (Index j = 0; j < i; ++j)
+    Index j = 0;
+    for (; j + 4 <= i; j += 4) {
+      const Lanes* const rows[4] = {row(j), row(j + 1), row(j + 2), row(j + 3)};
+      kernels.dots(a, rows, j, sums);
+      for (Index k = 0; k < 4; ++k) {
+        for (Index m = 0; m < k; ++m)
+          sums[k] += a[j + m] * rows[k][j + m];
+        a[j + k] = (a[j + k] - sums[k]) * reciprocal_[static_cast<std::size_t>(j + k)];
+      }
+    }
+    for (; j < i; ++j)
       a[j] = (a[j] - dot(a, row(j), j)) * reciprocal_[static_cast<std::size_t>(j)];
     const Lanes entry = a[i];
     Lanes pivot = entry - dot(a, a, i);
@@ -46,9 +59,20 @@ HYDRODAE_WIDE void LaneCholesky::factorise(double least, std::array<bool, width>
   }
 }
 
-HYDRODAE_WIDE void LaneCholesky::solve_forward(Lanes* x, Index from) const {
+void LaneCholesky::solve_forward(Lanes* x, Index from) const {
   for (Index i = from; i < n_; ++i)
-    x[i] = (x[i] - dot(row(i) + from, x + from, i - from)) * reciprocal_[static_cast<std::size_t>(i)];
+    x[i] =
+        (x[i] - dot(row(i) + from, x + from, i - from)) * reciprocal_[static_cast<std::size_t>(i)];
+}
+
+void LaneCholesky::solve_forward(Lanes* const* x, Index from) const {
+  Lanes sums[4];
+  for (Index i = from; i < n_; ++i) {
+    const Lanes* const vectors[4] = {x[0] + from, x[1] + from, x[2] + from, x[3] + from};
+    kernels.dots(row(i) + from, vectors, i - from, sums);
+    for (int k = 0; k < 4; ++k)
+      x[k][i] = (x[k][i] - sums[k]) * reciprocal_[static_cast<std::size_t>(i)];
+  }
 }
 
 HYDRODAE_WIDE void LaneCholesky::solve_backward(Lanes* x) const {
@@ -73,10 +97,11 @@ LaneModel::LaneModel(std::span<const system::Regime* const> runs)
     runs_.emplace_back(*regime);
   find_clusters();
   find_rows();
-  system::for_each_law(s_, [&](const system::ElementList& list, std::size_t, const system::PortData& port) {
-    if (list.laws->absorbs)
-      take_offs_.push_back(port.component);
-  });
+  system::for_each_law(
+      s_, [&](const system::ElementList& list, std::size_t, const system::PortData& port) {
+        if (list.laws->absorbs)
+          take_offs_.push_back(port.component);
+      });
   absorbed_.resize(take_offs_.size());
 }
 
@@ -135,9 +160,14 @@ void LaneModel::find_rows() {
           row.parts.push_back({c, from, {}});
       }
       for (Row::Part& part : row.parts)
-        part.w.resize(static_cast<std::size_t>(clusters_[static_cast<std::size_t>(part.cluster)].mass.size()));
+        part.w.resize(static_cast<std::size_t>(
+            clusters_[static_cast<std::size_t>(part.cluster)].mass.size()));
       rows_.push_back(std::move(row));
     }
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    for (std::size_t p = 0; p < rows_[i].parts.size(); ++p)
+      clusters_[static_cast<std::size_t>(rows_[i].parts[p].cluster)].rows.push_back(
+          {static_cast<Index>(i), p});
   schur_.resize(static_cast<Index>(rows_.size()));
   lambda_.resize(rows_.size());
 }
@@ -181,9 +211,11 @@ void LaneModel::add_elements(double t, const Lanes* y, Lanes* yp) {
       if (!list.laws->absorbs)
         continue;
       const element::Shape& shape = list.laws->shape;
-      const system::ElementScratch<double>& seen = run.state.elements[system::index_of(run.s, list)];
+      const system::ElementScratch<double>& seen =
+          run.state.elements[system::index_of(run.s, list)];
       for (std::size_t law = 0; law < list.ports.size(); ++law) {
-        const double* v = seen.in.data() + law * static_cast<std::size_t>(shape.n_in()) + shape.width;
+        const double* v =
+            seen.in.data() + law * static_cast<std::size_t>(shape.n_in()) + shape.width;
         const double* load = seen.out.data() + law * static_cast<std::size_t>(shape.n_out());
         double power = 0.0;
         for (int c = 0; c < shape.width; ++c)
@@ -199,7 +231,8 @@ void LaneModel::add_elements(double t, const Lanes* y, Lanes* yp) {
   }
 }
 
-Vec6<Lanes> LaneModel::of_body(const system::HydroBody& hb, const std::vector<Lanes>& values) const {
+Vec6<Lanes> LaneModel::of_body(const system::HydroBody& hb,
+                               const std::vector<Lanes>& values) const {
   Vec6<Lanes> out;
   for (int c = 0; c < 6; ++c) {
     const int u = hb.moving[static_cast<std::size_t>(c)];
@@ -238,9 +271,9 @@ HYDRODAE_WIDE void LaneModel::add_water(const Lanes* y, Lanes* yp) {
     h.products.added_mass.add_product(U_dot_.data(), force_.data());
   for (const system::HydroBody& hb : h.bodies)
     if (hb.moves)
-      loads_[static_cast<std::size_t>(hb.body)] -= water::hydro_load<Lanes>(
-          h.axes, hb, bodies_[static_cast<std::size_t>(hb.body)], of_body(hb, force_),
-          of_body(hb, momentum_));
+      loads_[static_cast<std::size_t>(hb.body)] -=
+          water::hydro_load<Lanes>(h.axes, hb, bodies_[static_cast<std::size_t>(hb.body)],
+                                   of_body(hb, force_), of_body(hb, momentum_));
   Lanes* rate = yp + h.z0;
   for (const system::HydroData::Block& b : h.blocks) {
     const int k = b.state;
@@ -262,7 +295,8 @@ HYDRODAE_WIDE void LaneModel::add_inertia(const Lanes* y, Lanes* yp) {
       continue;
     const BodyLanes& b = bodies_[i];
     const Vec3<Lanes> spin = data.inertia.cast<Lanes>() * b.w;
-    kinetic_ += Lanes(0.5) * (Lanes(data.mass) * hydrodae::dot<Lanes>(b.v, b.v) + hydrodae::dot<Lanes>(b.w, spin));
+    kinetic_ += Lanes(0.5) * (Lanes(data.mass) * hydrodae::dot<Lanes>(b.v, b.v) +
+                              hydrodae::dot<Lanes>(b.w, spin));
     Vec6<Lanes> load = loads_[i];
     load.tail<3>() -= cross<Lanes>(b.w, spin);
     std::vector<Lanes>& right = clusters_[static_cast<std::size_t>(cluster_of_[i])].load;
@@ -310,7 +344,8 @@ void LaneModel::add_water_mass(std::size_t i, std::size_t j) {
     Mat3<Lanes> out;
     for (int m = 0; m < 3; ++m)
       for (int n = 0; n < 3; ++n) {
-        const int u = a.moving[static_cast<std::size_t>(row + m)], v = b.moving[static_cast<std::size_t>(column + n)];
+        const int u = a.moving[static_cast<std::size_t>(row + m)],
+                  v = b.moving[static_cast<std::size_t>(column + n)];
         out(m, n) = Lanes(u < 0 || v < 0 ? 0.0 : s_.hydro.added_mass(u, v));
       }
     return out;
@@ -326,7 +361,8 @@ void LaneModel::add_water_mass(std::size_t i, std::size_t j) {
   for (int k = 0; k < data_a.n_active; ++k)
     for (int l = 0; l < data_b.n_active; ++l)
       if (const Index m = offset_[body_a] + k, n = offset_[body_b] + l; n <= m)
-        mass.at(m, n) += turned(data_a.active[static_cast<std::size_t>(k)], data_b.active[static_cast<std::size_t>(l)]);
+        mass.at(m, n) += turned(data_a.active[static_cast<std::size_t>(k)],
+                                data_b.active[static_cast<std::size_t>(l)]);
 }
 
 HYDRODAE_WIDE void LaneModel::fill_masses() {
@@ -337,7 +373,8 @@ HYDRODAE_WIDE void LaneModel::fill_masses() {
       const Index at = offset_[static_cast<std::size_t>(body)];
       for (int k = 0; k < data.n_active; ++k)
         for (int l = 0; l <= k; ++l) {
-          const int c = data.active[static_cast<std::size_t>(k)], d = data.active[static_cast<std::size_t>(l)];
+          const int c = data.active[static_cast<std::size_t>(k)],
+                    d = data.active[static_cast<std::size_t>(l)];
           if (c < 3 && c == d)
             cluster.mass.at(at + k, at + l) = Lanes(data.mass);
           else if (c >= 3 && d >= 3)
@@ -438,23 +475,47 @@ HYDRODAE_WIDE void LaneModel::fill_rows() {
             part.w[static_cast<std::size_t>(offset_[body] + k)] +=
                 value.gradient[6 * side + data.active[static_cast<std::size_t>(k)]].a;
     }
-    for (Row::Part& part : row.parts)
-      clusters_[static_cast<std::size_t>(part.cluster)].mass.solve_forward(part.w.data(), part.from);
+  }
+  for (Cluster& cluster : clusters_) {
+    std::size_t i = 0;
+    for (; i + 4 <= cluster.rows.size(); i += 4) {
+      Lanes* vectors[4];
+      Index from = cluster.mass.size();
+      for (std::size_t k = 0; k < 4; ++k) {
+        Row::Part& part = cluster.part(rows_, i + k);
+        vectors[k] = part.w.data();
+        from = std::min(from, part.from);
+      }
+      cluster.mass.solve_forward(vectors, from);
+    }
+    for (; i < cluster.rows.size(); ++i) {
+      Row::Part& part = cluster.part(rows_, i);
+      cluster.mass.solve_forward(part.w.data(), part.from);
+    }
   }
 }
 
-HYDRODAE_WIDE void LaneModel::factorise_rows() {
-  for (std::size_t i = 0; i < rows_.size(); ++i)
-    for (std::size_t j = 0; j <= i; ++j) {
-      Lanes sum(0.0);
-      for (const Row::Part& a : rows_[i].parts)
-        for (const Row::Part& b : rows_[j].parts)
-          if (a.cluster == b.cluster) {
-            const auto from = std::max(a.from, b.from);
-            sum += dot(a.w.data() + from, b.w.data() + from, static_cast<Index>(a.w.size()) - from);
-          }
-      schur_.at(static_cast<Index>(i), static_cast<Index>(j)) = sum;
+void LaneModel::factorise_rows() {
+  schur_.set_zero();
+  Lanes sums[4];
+  for (Cluster& cluster : clusters_) {
+    const Index n = cluster.mass.size();
+    for (std::size_t i = 0; i < cluster.rows.size(); ++i) {
+      const Row::Part& a = cluster.part(rows_, i);
+      std::size_t j = 0;
+      for (; j + 4 <= i + 1; j += 4) {
+        const Lanes* vectors[4];
+        for (std::size_t k = 0; k < 4; ++k)
+          vectors[k] = cluster.part(rows_, j + k).w.data() + a.from;
+        kernels.dots(a.w.data() + a.from, vectors, n - a.from, sums);
+        for (std::size_t k = 0; k < 4; ++k)
+          schur_.at(cluster.rows[i].row, cluster.rows[j + k].row) += sums[k];
+      }
+      for (; j <= i; ++j)
+        schur_.at(cluster.rows[i].row, cluster.rows[j].row) +=
+            dot(a.w.data() + a.from, cluster.part(rows_, j).w.data() + a.from, n - a.from);
     }
+  }
   schur_.factorise(regular, sound);
 }
 
@@ -500,7 +561,8 @@ void LaneModel::accelerations(double t, const Lanes* y, Lanes* yp) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const system::BodyData& data = s_.bodies[i];
     for (int k = 0; k < data.n_active; ++k)
-      yp[data.u0 + k] = clusters_[static_cast<std::size_t>(cluster_of_[i])].load[static_cast<std::size_t>(offset_[i] + k)];
+      yp[data.u0 + k] = clusters_[static_cast<std::size_t>(cluster_of_[i])]
+                            .load[static_cast<std::size_t>(offset_[i] + k)];
   }
 }
 
@@ -524,7 +586,8 @@ void LaneModel::close(const std::vector<Lanes>& gap, std::vector<Lanes>& step) {
     const system::BodyData& data = s_.bodies[i];
     for (int k = 0; k < data.n_active; ++k)
       step[static_cast<std::size_t>(data.u0 - s_.u0 + k)] =
-          clusters_[static_cast<std::size_t>(cluster_of_[i])].load[static_cast<std::size_t>(offset_[i] + k)];
+          clusters_[static_cast<std::size_t>(cluster_of_[i])]
+              .load[static_cast<std::size_t>(offset_[i] + k)];
   }
 }
 
@@ -535,7 +598,8 @@ void LaneModel::project(Lanes* y) {
   const auto see = [&] {
     for (std::size_t k = 0; k < width; ++k) {
       take(y, k);
-      system::unpack<double>(runs_[k].s, runs_[k].y.data(), runs_[k].still.data(), runs_[k].state.bodies);
+      system::unpack<double>(runs_[k].s, runs_[k].y.data(), runs_[k].still.data(),
+                             runs_[k].state.bodies);
     }
     see_bodies();
   };
@@ -555,7 +619,8 @@ void LaneModel::project(Lanes* y) {
     see();
     double worst = 0.0;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      gap[i] = smooth_row<Lanes>(rows_[i].kind, *rows_[i].joint, geometry<Lanes>(*rows_[i].joint)).value;
+      gap[i] =
+          smooth_row<Lanes>(rows_[i].kind, *rows_[i].joint, geometry<Lanes>(*rows_[i].joint)).value;
       for (std::size_t k = 0; k < width; ++k)
         if (sound[k])
           worst = std::max(worst, std::abs(gap[i].lane[k]) / runs_[k].s.row_scale[rows_[i].mu]);
@@ -584,7 +649,8 @@ void LaneModel::project(Lanes* y) {
           continue;
         const system::BodyData& data = s_.bodies[static_cast<std::size_t>(side_body[side])];
         for (int k = 0; k < data.n_active; ++k)
-          gap[i] += rows_[i].gradient[6 * side + data.active[static_cast<std::size_t>(k)]] * y[data.u0 + k];
+          gap[i] += rows_[i].gradient[6 * side + data.active[static_cast<std::size_t>(k)]] *
+                    y[data.u0 + k];
       }
     }
     close(gap, step);

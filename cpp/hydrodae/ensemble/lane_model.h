@@ -27,7 +27,9 @@ public:
   Index size() const { return n_; }
   void set_zero() { std::fill(entries_.begin(), entries_.end(), Lanes(0.0)); }
   /// Entry of the lower triangle, column <= row.
-  Lanes& at(Index row, Index column) { return entries_[static_cast<std::size_t>(row * n_ + column)]; }
+  Lanes& at(Index row, Index column) {
+    return entries_[static_cast<std::size_t>(row * n_ + column)];
+  }
 
   /// M = L L^T. A pivot below `least` of its entry is replaced by that entry, and its lane is
   /// cleared in `sound`.
@@ -35,6 +37,8 @@ public:
 
   /// x := L^-1 x where x is zero before `from`, and x := L^-T x.
   void solve_forward(Lanes* x, Index from = 0) const;
+  /// Of four vectors.
+  void solve_forward(Lanes* const* x, Index from) const;
   void solve_backward(Lanes* x) const;
 
 private:
@@ -64,7 +68,7 @@ public:
 
   // Of the state of the last `accelerations`:
   const std::vector<Lanes>& absorbed() const { return absorbed_; } ///< by take-offs [W]
-  const Lanes& power() const { return power_; } ///< of all loads but the reactions [W]
+  const Lanes& power() const { return power_; }     ///< of all loads but the reactions [W]
   const Lanes& kinetic() const { return kinetic_; } ///< energy of bodies and fluid [J]
 
   const std::vector<std::string>& take_offs() const { return take_offs_; }
@@ -80,12 +84,6 @@ private:
     system::Workspace<double> state;
     VectorX y, still, residual; ///< (n,) `still`: zero rates
   };
-  /// Bodies whose accelerations feel each other through the water.
-  struct Cluster {
-    std::vector<int> bodies;
-    LaneCholesky mass;
-    std::vector<Lanes> load; ///< (n,) right-hand side, then accelerations
-  };
   /// A row of a joint that holds, and the clusters of its bodies: one or two.
   struct Row {
     const system::JointData* joint = nullptr;
@@ -93,12 +91,26 @@ private:
     Index mu = 0, lambda = 0; ///< in the residual
     struct Part {
       int cluster = 0;
-      Index from = 0; ///< first entry that is not zero
+      Index from = 0;       ///< first entry that is not zero
       std::vector<Lanes> w; ///< L^-1 G^T
     };
     std::vector<Part> parts;
-    Lanes bias;                    ///< (dG/dt) u
+    Lanes bias; ///< (dG/dt) u
     joint::Vec12<Lanes> gradient;
+  };
+  /// Bodies whose accelerations feel each other through the water.
+  struct Cluster {
+    std::vector<int> bodies;
+    LaneCholesky mass;
+    std::vector<Lanes> load; ///< (n,) right-hand side, then accelerations
+    struct Feels {           ///< a row of a joint that feels the cluster
+      Index row = 0;         ///< in `rows_`
+      std::size_t part = 0;  ///< of that row
+    };
+    std::vector<Feels> rows;
+    Row::Part& part(std::vector<Row>& all, std::size_t i) const {
+      return all[static_cast<std::size_t>(rows[i].row)].parts[rows[i].part];
+    }
   };
   /// Turns of the force and of the moment from hydrodynamic axes into those of the momentum rows.
   struct Turn {

@@ -10,9 +10,9 @@ namespace hydrodae::ensemble {
 
 /// A function whose calls become a part of it, compiled for the plain processor and for wider
 /// registers; the widest that the machine has is taken at run time.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define HYDRODAE_WIDE                                                                              \
-  [[gnu::flatten, gnu::target_clones("default", "arch=haswell", "arch=skylake-avx512")]]
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) &&                             \
+    !defined(__SANITIZE_ADDRESS__)
+#define HYDRODAE_WIDE [[gnu::flatten, gnu::target_clones("default", "avx2", "avx512f")]]
 #else
 #define HYDRODAE_WIDE
 #endif

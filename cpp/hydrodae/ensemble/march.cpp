@@ -25,12 +25,15 @@ using integrate::tableaux::rk8_e5;
 
 constexpr std::size_t stages = 12;
 
+/// Part of the run below which a step is that of one run alone, which holds up the others.
+constexpr double shortest = 1e-7;
+
 /// What one run of the march has of its own.
 struct Run {
   explicit Run(Start& start)
       : regime(start.regime), forcing(regime, start.scene.solver.end_time, start.scene.output.step),
-        scale(start.regime, start.pattern, start.y, start.yp, forcing.motion(), start.scene.sea.ramp,
-              start.scene.solver.rtol),
+        scale(start.regime, *start.pattern, start.y, start.yp, forcing.motion(),
+              start.scene.sea.ramp, start.scene.solver.rtol),
         y(start.y), yp(start.yp) {}
 
   const system::Regime& regime;
@@ -50,13 +53,16 @@ public:
 private:
   using Column = std::vector<Lanes>; ///< (n,) of q, u, z
 
-  static std::vector<const system::Regime*> regimes_of(const std::vector<std::unique_ptr<Start>>& starts);
+  static std::vector<const system::Regime*>
+  regimes_of(const std::vector<std::unique_ptr<Start>>& starts);
   void start_samples();
   double first_step() const;
   double bound();
   void set_stage(double h, std::size_t count, std::span<const double> weights);
   void try_step(double h);
-  Lanes size_of(double h, std::span<const double> weights);
+  void combine(double h, std::span<const double> weights);
+  Lanes norm();
+  bool is_smooth(double h);
   Lanes error(double h);
   void remember_powers(std::size_t stage);
   bool step(double end);
@@ -77,11 +83,14 @@ private:
   const double end_, ramp_, rtol_;
   double t_ = 0.0, h_ = 0.0, last_error_ = 1e-4;
   long steps_ = 0, failures_ = 0, calls_ = 0;
-  Column y_, stage_, rate_, scales_;
-  std::vector<Column> k_; ///< rates of the stages, and at the end
-  std::vector<std::vector<Lanes>> powers_; ///< of each stage and of the end: take-offs, then all loads
-  std::vector<Lanes> work_;                ///< their integrals [J]
-  std::vector<Lanes> mean_from_;           ///< the same at the end of the ramp
+  Column y_, stage_, error_, scales_;
+  std::vector<Lanes> sums_; ///< by group
+  Lanes usual_jump_{0.0};   ///< see is_smooth
+  std::vector<Column> k_;   ///< rates of the stages, and at the end
+  std::vector<std::vector<Lanes>>
+      powers_;                   ///< of each stage and of the end: take-offs, then all loads
+  std::vector<Lanes> work_;      ///< their integrals [J]
+  std::vector<Lanes> mean_from_; ///< the same at the end of the ramp
   Lanes start_energy_, kinetic_most_;
   long next_sample_ = 0;
   std::vector<double> row_;
@@ -93,7 +102,8 @@ const Start& lane(const std::vector<std::unique_ptr<Start>>& starts, std::size_t
   return *starts[std::min(k, starts.size() - 1)];
 }
 
-std::vector<const system::Regime*> March::regimes_of(const std::vector<std::unique_ptr<Start>>& starts) {
+std::vector<const system::Regime*>
+March::regimes_of(const std::vector<std::unique_ptr<Start>>& starts) {
   std::vector<const system::Regime*> out;
   for (std::size_t k = 0; k < width; ++k)
     out.push_back(&lane(starts, k).regime);
@@ -103,9 +113,10 @@ std::vector<const system::Regime*> March::regimes_of(const std::vector<std::uniq
 March::March(const std::vector<std::unique_ptr<Start>>& starts)
     : starts_(starts), count_(std::min<std::size_t>(starts.size(), width)),
       scene_(starts[0]->scene), model_(regimes_of(starts)), n_(model_.size()),
-      end_(scene_.solver.end_time),
-      ramp_(starts[0]->system.has_waves() ? scene_.sea.ramp : 0.0), rtol_(scene_.solver.rtol),
-      y_(static_cast<std::size_t>(n_)), stage_(y_), rate_(y_), scales_(y_), k_(stages + 1, y_) {
+      end_(scene_.solver.end_time), ramp_(starts[0]->system.has_waves() ? scene_.sea.ramp : 0.0),
+      rtol_(scene_.solver.rtol), y_(static_cast<std::size_t>(n_)), stage_(y_), error_(y_),
+      scales_(y_), sums_(static_cast<std::size_t>(starts[0]->regime.n_error_groups())),
+      k_(stages + 1, y_) {
   for (std::size_t k = 0; k < count_; ++k)
     runs_.emplace_back(*starts[k]);
   powers_.assign(stages + 1, std::vector<Lanes>(model_.take_offs().size() + 1));
@@ -198,22 +209,32 @@ void March::try_step(double h) {
   set_stage(h, stages, rk8_b);
 }
 
-/// Root mean square of an error over each group of bodies, the largest of the groups.
-HYDRODAE_WIDE Lanes March::size_of(double h, std::span<const double> weights) {
-  const system::Regime& s = runs_[0].regime;
-  std::vector<Lanes> sums(static_cast<std::size_t>(s.n_error_groups()), Lanes(0.0));
-  for (std::size_t i = 0; i < y_.size(); ++i) {
+/// error_ = h sum_j weights_j k_j
+HYDRODAE_WIDE void March::combine(double h, std::span<const double> weights) {
+  for (std::size_t i = 0; i < error_.size(); ++i) {
     Lanes e(0.0);
     for (std::size_t j = 0; j < stages; ++j)
       if (weights[j] != 0.0)
         e += Lanes(h * weights[j]) * k_[j][i];
-    e /= Lanes(rtol_) * (scales_[i] + Lanes(s.relative[static_cast<Index>(i)]) * abs(y_[i]));
-    sums[static_cast<std::size_t>(s.error_group[i])] += e * e;
+    error_[i] = e;
+  }
+}
+
+/// Root mean square of error_ in units of the tolerance over each group of bodies, the largest of
+/// the groups.
+HYDRODAE_WIDE Lanes March::norm() {
+  const system::Regime& s = runs_[0].regime;
+  std::fill(sums_.begin(), sums_.end(), Lanes(0.0));
+  for (std::size_t i = 0; i < error_.size(); ++i) {
+    const Lanes e =
+        error_[i] /
+        (Lanes(rtol_) * (scales_[i] + Lanes(s.relative[static_cast<Index>(i)]) * abs(y_[i])));
+    sums_[static_cast<std::size_t>(s.error_group[i])] += e * e;
   }
   Lanes out(0.0);
-  for (std::size_t g = 0; g < sums.size(); ++g)
+  for (std::size_t g = 0; g < sums_.size(); ++g)
     for (int k = 0; k < width; ++k) {
-      const double mean = sums[g].lane[k] / s.group_size[static_cast<Index>(g)];
+      const double mean = sums_[g].lane[k] / s.group_size[static_cast<Index>(g)];
       out.lane[k] = mean <= out.lane[k] ? out.lane[k] : mean; // NaN stays
     }
   return sqrt(out);
@@ -221,13 +242,36 @@ HYDRODAE_WIDE Lanes March::size_of(double h, std::span<const double> weights) {
 
 /// Of the two estimates of the method: Hairer, Norsett and Wanner, section II.10.
 Lanes March::error(double h) {
-  const Lanes five = size_of(h, rk8_e5), three = size_of(h, rk8_e3);
+  combine(h, rk8_e5);
+  const Lanes five = norm();
+  combine(h, rk8_e3);
+  const Lanes three = norm();
   Lanes out;
   for (int k = 0; k < width; ++k) {
     const double both = std::hypot(five.lane[k], 0.1 * three.lane[k]);
     out.lane[k] = both > 0.0 ? five.lane[k] * five.lane[k] / both : (both == 0.0 ? 0.0 : INFINITY);
   }
   return out;
+}
+
+/// Do the accelerations at the end of the step agree with those of the last stage? See
+/// ExplicitRk::is_smooth: a slope that changes within the step shows here.
+bool March::is_smooth(double h) {
+  constexpr double allowed = 100.0, least = 3.0, memory = 0.8;
+  for (std::size_t i = 0; i < error_.size(); ++i)
+    error_[i] = Lanes(h) * (k_[stages][i] - k_[stages - 1][i]);
+  const Lanes jump = norm();
+  Lanes next = usual_jump_;
+  for (std::size_t k = 0; k < count_; ++k) {
+    if (!runs_[k].left.empty())
+      continue;
+    const double now = std::max(jump.lane[k], least), common = std::max(usual_jump_.lane[k], least);
+    if (!(now <= allowed * common))
+      return false;
+    next.lane[k] = std::pow(common, memory) * std::pow(now, 1.0 - memory);
+  }
+  usual_jump_ = next;
+  return true;
 }
 
 /// Makes one step up to `end` at most; false where no run is left.
@@ -267,7 +311,7 @@ bool March::step(double end) {
       ++failures_;
       failed = true;
       h_ = h * std::max(least, safety * std::pow(worst, -power));
-      if (h_ < 1e-6 * std::min(end_, wanted))
+      if (h_ < shortest * end_)
         leave(by, "its steps become too short for the others");
       continue;
     }
@@ -276,6 +320,14 @@ bool March::step(double end) {
     model_.accelerations(reached, stage_.data(), k_[stages].data());
     ++calls_;
     remember_powers(stages);
+    if (!fixed && !is_smooth(h)) {
+      ++failures_;
+      failed = true;
+      h_ = 0.25 * h;
+      k_[stages] = k_[0];
+      powers_[stages] = powers_[0];
+      continue;
+    }
     for (std::size_t k = 0; k < count_; ++k)
       if (!model_.sound[k])
         leave(k, "its pose is singular");
@@ -285,8 +337,8 @@ bool March::step(double end) {
       return true;
     }
     const double e = std::max(worst, 1e-10);
-    h_ = h * std::clamp(safety * std::pow(e, -0.7 * power) * std::pow(last_error_, 0.3 * power), least,
-                        failed ? 1.0 : most);
+    h_ = h * std::clamp(safety * std::pow(e, -0.7 * power) * std::pow(last_error_, 0.3 * power),
+                        least, failed ? 1.0 : most);
     last_error_ = std::max(e, 1e-4);
     if (h == allowed) // a step that was cut says nothing against longer ones
       h_ = std::max(h_, wanted);
@@ -339,7 +391,8 @@ void March::judge_energy() {
     const double missing = std::abs(kinetic - start_energy_.lane[k] - work_.back().lane[k]) -
                            run::energy_of_errors(run.regime, rtol_);
     if (!(missing <= allowed * run.exchanged))
-      leave(k, "energy is missing, " + rounded_text(missing / run.exchanged) + " of what was exchanged");
+      leave(k, "energy is missing, " + rounded_text(missing / run.exchanged) +
+                   " of what was exchanged");
   }
 }
 
@@ -348,7 +401,8 @@ void March::judge_energy() {
 void March::sample(double t0, double h, const std::vector<Lanes>& before) {
   const double dt = scene_.output.step;
   for (; static_cast<double>(next_sample_) * dt <= (t0 + h) * (1.0 + 1e-14); ++next_sample_) {
-    const double t = std::min(static_cast<double>(next_sample_) * dt, t0 + h), x = (t - t0) / h, z = 1.0 - x;
+    const double t = std::min(static_cast<double>(next_sample_) * dt, t0 + h), x = (t - t0) / h,
+                 z = 1.0 - x;
     const double by_end = x * x * (3.0 - 2.0 * x);
     for (std::size_t k = 0; k < count_; ++k) {
       for (std::size_t i = 0; i < row_.size(); ++i)
@@ -378,15 +432,17 @@ Outcome March::outcome(std::size_t k) const {
     s.mean_power.emplace_back(model_.take_offs()[i],
                               (work_[i].lane[k] - mean_from_[i].lane[k]) / (t_ - ramp_));
   run.sea->write(s);
-  s.wall_time = s.solver_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count() /
-                static_cast<double>(count_);
+  s.wall_time = s.solver_time =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count() /
+      static_cast<double>(count_);
   return {s, ""};
 }
 
 std::vector<Outcome> March::operator()() {
   const SolverOptions& options = scene_.solver;
-  h_ = options.step > 0.0 ? options.step
-                          : std::min(options.max_step > 0.0 ? options.max_step : end_, first_step());
+  h_ = options.step > 0.0
+           ? options.step
+           : std::min(options.max_step > 0.0 ? options.max_step : end_, first_step());
   while (t_ < end_ && step(t_ < ramp_ ? std::min(ramp_, end_) : end_))
     if (t_ == ramp_)
       mean_from_ = work_;

@@ -15,14 +15,15 @@ namespace hydrodae::ensemble {
 /// A scene at its start: system, regime and consistent rates.
 struct Start {
   /// Throws ModelError or SolverError when the scene cannot start.
-  explicit Start(const model::Scene& scene);
+  /// @param like of a start whose pattern serves where the equations are alike; null: none
+  explicit Start(const model::Scene& scene, const Start* like = nullptr);
   Start(const Start&) = delete;
   Start& operator=(const Start&) = delete;
 
   const model::Scene& scene;
   system::System system;
   system::Regime regime;
-  system::Pattern pattern;
+  std::shared_ptr<const system::Pattern> pattern;
   VectorX y, yp;
 };
 

@@ -9,10 +9,51 @@
 
 namespace hydrodae::ensemble {
 
-Start::Start(const model::Scene& given)
-    : scene(given), system(statics::starting_system(given)), regime(system),
-      pattern(system::find_pattern(regime)), y(system::initial_state(regime)) {
-  statics::consistent_start(regime, pattern, y, yp);
+namespace {
+
+/// Do the laws of two systems act at the same places?
+bool same_ports(const system::System& a, const system::System& b) {
+  const auto same = [](const system::PortData& x, const system::PortData& y) {
+    const auto point = [](const joint::Marker& m, const joint::Marker& n) {
+      return m.body == n.body;
+    };
+    return x.motion == y.motion && x.body == y.body && x.joint == y.joint &&
+           x.motions == y.motions &&
+           std::equal(x.points.begin(), x.points.end(), y.points.begin(), y.points.end(), point);
+  };
+  return std::equal(a.elements.begin(), a.elements.end(), b.elements.begin(), b.elements.end(),
+                    [&](const system::ElementList& x, const system::ElementList& y) {
+                      return x.laws->type == y.laws->type &&
+                             std::equal(x.ports.begin(), x.ports.end(), y.ports.begin(),
+                                        y.ports.end(), same);
+                    });
+}
+
+/// Do two starts have equations between the same unknowns?
+bool alike(const Start& a, const Start& b) {
+  const auto joint = [](const system::JointData& x, const system::JointData& y) {
+    return x.A.body == y.A.body && x.B.body == y.B.body && x.type == y.type;
+  };
+  const auto links = [](const auto& x, const auto& y) {
+    return x.partners == y.partners && x.states == y.states;
+  };
+  const std::vector<system::JointData>&j = a.system.joints, &k = b.system.joints;
+  const auto &m = a.system.hydro.links, &n = b.system.hydro.links;
+  return a.regime.names == b.regime.names && a.regime.lambdas == b.regime.lambdas &&
+         std::equal(j.begin(), j.end(), k.begin(), k.end(), joint) &&
+         std::equal(m.begin(), m.end(), n.begin(), n.end(), links) &&
+         same_ports(a.system, b.system);
+}
+
+} // namespace
+
+Start::Start(const model::Scene& given, const Start* like)
+    : scene(given), system(statics::bare_system(given)), regime(system) {
+  pattern = like && alike(*like, *this)
+                ? like->pattern
+                : std::make_shared<const system::Pattern>(system::find_pattern(regime));
+  y = system::initial_state(regime);
+  statics::consistent_start(regime, *pattern, y, yp);
   system::take_time_scales(system, y, yp);
   system::lay_out(regime);
   for (system::ElementList& list : system.elements)
@@ -24,14 +65,15 @@ namespace {
 
 /// Does a row have no branches (LaneModel)?
 bool is_smooth(const joint::BasicRow& row) {
-  return std::holds_alternative<joint::SpanRow>(row) || std::holds_alternative<joint::PerpRow>(row) ||
+  return std::holds_alternative<joint::SpanRow>(row) ||
+         std::holds_alternative<joint::PerpRow>(row) ||
          std::holds_alternative<joint::DistanceRow>(row);
 }
 
 std::string of_elements(const system::ElementList& list) {
   const std::string type(list.laws->type);
-  if (list.laws->has_kinks() || !list.laws->sticks.empty())
-    return "the load of " + type + " has kinks";
+  if (!list.laws->sticks.empty())
+    return type + " sticks";
   if (list.laws->shape.n_reaction > 0)
     return type + " feels the reaction of its joint";
   if (list.laws->shape.n_algebraic > 0)
@@ -43,7 +85,7 @@ std::string of_elements(const system::ElementList& list) {
 std::string of_method(const Start& start) {
   const SolverOptions& options = start.scene.solver;
   const run::SceneTraits traits =
-      run::find_traits(start.regime, start.pattern, options, start.y, start.yp);
+      run::find_traits(start.regime, *start.pattern, options, start.y, start.yp);
   if (!traits.costly.empty())
     return "each evaluation calls " + traits.costly;
   if (const MethodTraits* named = find_method(options.method))
@@ -85,12 +127,16 @@ std::string alone_because(const Start& start) {
 
 std::string apart_because(const Start& one, const Start& other) {
   const system::System &a = one.system, &b = other.system;
-  const auto differ = [](bool same, const char* what) { return same ? "" : std::string("they differ in ") + what; };
-  if (a.lambda0 != b.lambda0 || one.regime.n != other.regime.n || a.elements.size() != b.elements.size())
+  const auto differ = [](bool same, const char* what) {
+    return same ? "" : std::string("they differ in ") + what;
+  };
+  if (a.lambda0 != b.lambda0 || one.regime.n != other.regime.n ||
+      a.elements.size() != b.elements.size())
     return "they differ in their unknowns";
   for (std::size_t i = 0; i < a.bodies.size(); ++i) {
     const system::BodyData &x = a.bodies[i], &y = b.bodies[i];
-    if (x.mass != y.mass || x.inertia != y.inertia || x.active != y.active || x.rotation != y.rotation)
+    if (x.mass != y.mass || x.inertia != y.inertia || x.active != y.active ||
+        x.rotation != y.rotation)
       return "they differ in the mass of body " + x.name;
   }
   for (std::size_t i = 0; i < a.joints.size(); ++i) {
@@ -107,13 +153,19 @@ std::string apart_because(const Start& one, const Start& other) {
   const bool water = h.axes == k.axes && h.added_mass == k.added_mass && h.output == k.output &&
                      h.damping == k.damping && h.n_states == k.n_states &&
                      std::equal(h.bodies.begin(), h.bodies.end(), k.bodies.begin(), k.bodies.end(),
-                                [](const auto& x, const auto& y) { return x.yaw == y.yaw && x.moving == y.moving; });
+                                [](const auto& x, const auto& y) {
+                                  return x.yaw == y.yaw && x.moving == y.moving;
+                                });
   if (const std::string why = differ(water, "the water"); !why.empty())
     return why;
   const SolverOptions &m = one.scene.solver, &n = other.scene.solver;
-  if (const std::string why = differ(m.end_time == n.end_time && m.rtol == n.rtol && m.step == n.step && m.max_step == n.max_step, "[solver]"); !why.empty())
+  if (const std::string why = differ(m.end_time == n.end_time && m.rtol == n.rtol &&
+                                         m.step == n.step && m.max_step == n.max_step,
+                                     "[solver]");
+      !why.empty())
     return why;
-  return differ(one.scene.sea.ramp == other.scene.sea.ramp && one.scene.output.step == other.scene.output.step,
+  return differ(one.scene.sea.ramp == other.scene.sea.ramp &&
+                    one.scene.output.step == other.scene.output.step,
                 "the ramp or the step of the output");
 }
 

@@ -36,7 +36,8 @@ std::vector<Answer> simulate_together(const std::vector<const model::Scene*>& sc
   std::vector<Group> groups;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     try {
-      auto start = std::make_unique<Start>(*scenes[i]);
+      const Start* like = groups.empty() ? nullptr : groups[0].starts[0].get();
+      auto start = std::make_unique<Start>(*scenes[i], like);
       out[i].alone = alone_because(*start);
       if (out[i].alone.empty())
         join(groups, std::move(start), i);
