@@ -73,6 +73,15 @@ void bind_model(py::module_& module) {
           [](const Scene& s) { return s.database ? s.database->path : std::string(); },
           "The hydrodynamic database, \"\" without.")
       .def_property_readonly(
+          "database_water",
+          [](const Scene& s) {
+            std::array<double, 3> out{};
+            if (s.database)
+              out = {s.database->rho, s.database->gravity, s.database->water_depth};
+            return std::make_tuple(out[0], out[1], out[2]);
+          },
+          "Density [kg/m3], gravity [m/s2] and depth [m] of the database, zeros without.")
+      .def_property_readonly(
           "files",
           [](const Scene& s) {
             std::vector<std::tuple<std::string, std::string, std::string, std::string>> out;

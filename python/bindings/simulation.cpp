@@ -12,6 +12,8 @@
 #include "bindings.h"
 #include "functions.h"
 #include "hydrodae/core/error.h"
+#include "hydrodae/ensemble/lanes.h"
+#include "hydrodae/ensemble/together.h"
 
 namespace py = pybind11;
 
@@ -117,6 +119,27 @@ py::dict count_scene(const model::Scene& scene) {
   return out;
 }
 
+/// One dict of attributes a scene, or the reason why it has to be run alone.
+py::list run_together(const std::vector<const model::Scene*>& scenes) {
+  std::vector<ensemble::Answer> answers;
+  {
+    const py::gil_scoped_release release;
+    answers = ensemble::simulate_together(scenes);
+  }
+  py::list out;
+  for (const ensemble::Answer& answer : answers) {
+    if (!answer.alone.empty()) {
+      out.append(answer.alone);
+      continue;
+    }
+    py::dict attributes;
+    for (const auto& [name, value] : answer.attributes)
+      attributes[py::str(name)] = std::visit([](const auto& x) { return py::cast(x); }, value);
+    out.append(attributes);
+  }
+  return out;
+}
+
 } // namespace
 
 void bind_simulation(py::module_& module) {
@@ -127,6 +150,12 @@ void bind_simulation(py::module_& module) {
       py::arg("forces") = Functions{},
       "The scene as a tree, its unknowns, mobility and redundant rows. Raises CaseError when "
       "the joints cannot\nbe closed.");
+  module.attr("lanes") = ensemble::width;
+  module.def(
+      "simulate_together", &run_together, py::arg("scenes"),
+      "Run scenes that differ in their seas and take-offs side by side, without samples.\n\n"
+      "Returns for each scene the attributes that its results file would have, or the reason "
+      "(a text)\nwhy it has to be run by itself.");
   module.def(
       "simulate", &run, py::arg("scene"), py::arg("output"), py::arg("progress"), py::arg("drives"),
       py::arg("forces") = Functions{}, py::arg("controllers") = Functions{},

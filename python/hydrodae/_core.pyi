@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 version: str
+lanes: int  #: Runs that a march takes side by side
 
 class Scene:
     """A case file that was read and checked; immutable."""
@@ -40,6 +41,9 @@ class Scene:
     @property
     def database_path(self) -> str:
         """The hydrodynamic database, "" without."""
+    @property
+    def database_water(self) -> tuple[float, float, float]:
+        """Density [kg/m3], gravity [m/s2] and depth [m] of the database, zeros without."""
     @property
     def files(self) -> list[tuple[str, str, str, str]]:
         """Files that the case reads: key, path in the case, path as opened, SHA-256."""
@@ -163,6 +167,13 @@ class Headings:
     @property
     def misses(self) -> NDArray[np.float64]:
         """What interpolation without every other heading misses, from the forces (n, nh)."""
+
+def simulate_together(scenes: Sequence[Scene]) -> list[dict[str, Any] | str]:
+    """Run scenes that differ in their seas and take-offs side by side, without samples.
+
+    Returns for each scene the attributes that its results file would have, or the reason why it
+    has to be run by itself.
+    """
 
 def simulate(
     scene: Scene,

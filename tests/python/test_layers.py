@@ -20,6 +20,7 @@ LAYERS = [
     {"run"},
     {"simulation.h"},
     {"check", "session"},
+    {"ensemble"},
 ]
 # Rooms that hold the equations of motion and the methods that integrate them.
 HEART = {"core", "math", "sea", "hull", "hydro", "joint", "element", "control", "water", "line", "air"}

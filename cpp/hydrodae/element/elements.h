@@ -258,6 +258,10 @@ public:
   virtual void kinks(double, const double* /*in*/, const double* /*signals*/,
                      double* /*out*/) const {}
 
+  /// The same for a run that reports no loads, without what reports alone need; null: it is the
+  /// same.
+  virtual std::shared_ptr<const Elements> unreported() const { return nullptr; }
+
   // Of what feels the waves:
   virtual WavesFelt waves() const { return {}; }         ///< without any: nothing
   virtual double elevation(double) const { return 0.0; } ///< at the origin, at time t [m]

@@ -201,9 +201,8 @@ read_database(model::Scene& scene, const std::string& directory, const std::stri
   const std::string& radiation = scene.hydro->radiation;
   const bool judged = waves && (scene.hydro->axes == "yaw" || radiation == "exponential");
   const HydroTables tables{waves, judged || radiation == "constant", radiation == "convolution"};
-  read_file(scene, directory, key, path, what, [&](const std::string& whole) {
-    out = std::make_shared<const hydro::Database>(read_hydro_file(whole, tables));
-  });
+  read_file(scene, directory, key, path, what,
+            [&](const std::string& whole) { out = shared_hydro_file(whole, tables); });
   return out;
 }
 

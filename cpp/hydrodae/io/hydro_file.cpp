@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <numeric>
 #include <set>
 
 #include "hydrodae/core/text.h"
 #include "hydrodae/io/hdf5_input.h"
+#include "hydrodae/io/sha256.h"
 
 namespace hydrodae::io {
 namespace {
@@ -258,6 +262,25 @@ hydro::Database read_hydro_file(const std::string& path, const HydroTables& tabl
     database.damping = read_matrices(file, "/radiation_damping", nw, n);
   }
   return database;
+}
+
+std::shared_ptr<const hydro::Database> shared_hydro_file(const std::string& path,
+                                                         const HydroTables& tables) {
+  struct Entry {
+    HydroTables tables;
+    std::string digest;
+    std::weak_ptr<const hydro::Database> database;
+  };
+  static std::mutex mutex;
+  static std::map<std::string, Entry> entries;
+  const std::lock_guard lock(mutex);
+  if (const auto found = entries.find(path); found != entries.end())
+    if (std::shared_ptr<const hydro::Database> held = found->second.database.lock();
+        held && found->second.tables == tables && found->second.digest == sha256_of_file(path))
+      return held;
+  auto out = std::make_shared<const hydro::Database>(read_hydro_file(path, tables));
+  entries[path] = {tables, sha256_of_file(path), out};
+  return out;
 }
 
 } // namespace hydrodae::io

@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <string>
 
 #include "hydrodae/hydro/database.h"
@@ -10,10 +11,16 @@ struct HydroTables {
   bool excitation = false;
   bool radiation = false; ///< A(w) and B(w)
   bool kernel = false;    ///< K(t), if the file holds one
+  bool operator==(const HydroTables&) const = default;
 };
 
 /// Reads `hydro.h5`. Throws CaseError (path, dataset, what was expected) when it is missing, not of
 /// our format, or inconsistent in its shapes.
 hydro::Database read_hydro_file(const std::string& path, const HydroTables& tables = {});
+
+/// The same, read once for all scenes that hold it at a time: by the path and by the digest of the
+/// file.
+std::shared_ptr<const hydro::Database> shared_hydro_file(const std::string& path,
+                                                         const HydroTables& tables);
 
 } // namespace hydrodae::io

@@ -32,12 +32,25 @@ double table_step(const VectorX& omega, const Eigen::MatrixXcd& coefficients,
 Signals::Signals(VectorX omega, Eigen::MatrixXcd coefficients, double end, double ramp,
                  const VectorX& whole)
     : omega_(std::move(omega)), coefficients_(std::move(coefficients)), ramp_(ramp) {
-  const Index n = omega_.size(), rows = coefficients_.rows();
   const double longest = table_step(omega_, coefficients_, whole);
-  if (n <= few || !std::isfinite(longest))
+  if (omega_.size() <= few || !std::isfinite(longest))
     return;
   cells_ = std::max<Index>(1, static_cast<Index>(std::ceil(end / longest)));
   step_ = end / static_cast<double>(cells_);
+  make_table();
+}
+
+Signals Signals::first_and_last(Index count) const {
+  Signals out = *this;
+  out.coefficients_.resize(count + 1, components());
+  out.coefficients_ << coefficients_.topRows(count), coefficients_.bottomRows(1);
+  if (step_ > 0.0)
+    out.make_table();
+  return out;
+}
+
+void Signals::make_table() {
+  const Index n = omega_.size(), rows = coefficients_.rows();
   // Re(C e) = [Re C, -Im C] [cos; sin], and the same for its derivatives, C i w and -C w^2.
   parts_ = RowMajor::Zero(2 * n, dense::padded(3 * rows));
   Eigen::MatrixXcd scaled = coefficients_;
@@ -50,8 +63,10 @@ Signals::Signals(VectorX omega, Eigen::MatrixXcd coefficients, double end, doubl
   for (Index i = 0; i < n; ++i)
     turned_.row(i).head<2>() << std::cos(step_ * omega_[i]), std::sin(step_ * omega_[i]);
   phasors_.resize(2 * n, slice);
-  for (Page& page : pages_)
+  for (Page& page : pages_) {
+    page.number = -1;
     page.values.resize(points, parts_.cols());
+  }
 }
 
 /// The phasors of each slice are turned on from those before it; each page begins again, before

@@ -46,6 +46,9 @@ public:
   /// the times to come. Of its elements C those below `least` (n_signals,) count as zero.
   Signals frozen(const VectorX& theta, const VectorX& least) const;
 
+  /// The first `count` of the functions and the last, on the same table steps.
+  Signals first_and_last(Index count) const;
+
   Index size() const { return coefficients_.rows(); }
   Index components() const { return coefficients_.cols(); }
   bool empty() const { return coefficients_.rows() == 0; }
@@ -62,6 +65,7 @@ private:
     RowMajor values;   ///< (points, 3 n_signals, padded): f, h f', h^2 f''
   };
   void sum(double t, Eigen::Ref<VectorX> out) const;
+  void make_table();
   void fill(Index number, Page& page) const;
   const double* at_point(Index k) const; ///< f, h f', h^2 f'' at t = k h; valid for one more call
 

@@ -54,8 +54,7 @@ void write_power(const RunStatistics& s, io::Attributes& out) {
 
 } // namespace
 
-io::Attributes attributes(const RunStatistics& s, const model::Scene& scene,
-                          const run::Simulation& done) {
+io::Attributes attributes(const RunStatistics& s) {
   io::Attributes out{{"steps", std::int64_t{s.steps}},
                      {"residual_calls", std::int64_t{s.residual_calls}},
                      {"jacobian_calls", std::int64_t{s.jacobian_calls}},
@@ -69,11 +68,7 @@ io::Attributes attributes(const RunStatistics& s, const model::Scene& scene,
                      {"solver_time", s.solver_time},
                      {"wall_time", s.wall_time},
                      {"end_time", s.end_time},
-                     {"relative_balance_error", done.relative_balance_error()},
-                     {"energy_scale", done.energy_scale()},
-                     {"at_rest", std::int64_t{s.at_rest}},
-                     {"method", scene.solver.method},
-                     {"rtol", scene.solver.rtol}};
+                     {"at_rest", std::int64_t{s.at_rest}}};
   out["accuracy"] = s.accuracy.how;
   out["accuracy_missing"] = s.accuracy.missing;
   if (const accuracy::MoverError* worst = s.accuracy.worst()) {
@@ -87,6 +82,16 @@ io::Attributes attributes(const RunStatistics& s, const model::Scene& scene,
     out["controller_calls." + c.name] = std::int64_t{c.calls};
     out["controller_mean_time." + c.name] = c.mean_time;
   }
+  return out;
+}
+
+io::Attributes attributes(const RunStatistics& s, const model::Scene& scene,
+                          const run::Simulation& done) {
+  io::Attributes out = attributes(s);
+  out["relative_balance_error"] = done.relative_balance_error();
+  out["energy_scale"] = done.energy_scale();
+  out["method"] = scene.solver.method;
+  out["rtol"] = scene.solver.rtol;
   return out;
 }
 

@@ -20,6 +20,9 @@ io::Attributes header(const model::Scene& scene, const std::vector<std::string>&
 io::Attributes attributes(const RunStatistics& statistics, const model::Scene& scene,
                           const run::Simulation& done);
 
+/// Counts, times and mean powers among them, as far as they follow from the statistics alone.
+io::Attributes attributes(const RunStatistics& statistics);
+
 /// Which methods made the steps from when on, and why: a line each of `methods`, `method_from` [s]
 /// and `method_reason`; the last of them as `method_in_use`.
 void write_methods(const run::MethodChoice& choice, io::Attributes& out);

@@ -205,7 +205,7 @@ Rest settle(const model::Scene& scene, System& s) {
                                    "with which the hydrostatics turn, does not settle");
 }
 
-System starting_system(const model::Scene& scene) {
+System bare_system(const model::Scene& scene) {
   const bool rests = scene.solver.start == "equilibrium";
   System s = build::build(scene, !rests);
   if (rests) {
@@ -213,6 +213,11 @@ System starting_system(const model::Scene& scene) {
     build::note_axes(scene, s);
     build::add_sea(scene, s);
   }
+  return s;
+}
+
+System starting_system(const model::Scene& scene) {
+  System s = bare_system(scene);
   sanity::note_findings(scene, s);
   for (const sanity::Finding& finding : look_at_fit(scene, s))
     s.notes.push_back((finding.serious ? "looks wrong: " : "") + finding.text);

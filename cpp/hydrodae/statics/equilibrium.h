@@ -46,7 +46,11 @@ Rest move_to_equilibrium(system::System& system);
 /// `move_to_equilibrium`, with the mean yaw of the hydrodynamic bodies that of the equilibrium.
 Rest settle(const model::Scene& scene, system::System& system);
 
-/// `build`, with the start moved to the equilibrium where the scene asks for it.
+/// `build`, with the start moved to the equilibrium where the scene asks for it; what looks wrong
+/// in the scene or its memory fit is noted.
 system::System starting_system(const model::Scene& scene);
+
+/// The same without a look at what may be wrong.
+system::System bare_system(const model::Scene& scene);
 
 } // namespace hydrodae::statics

@@ -273,6 +273,16 @@ double Excitation::elevation(double t) const {
   return f[count() - 1];
 }
 
+std::shared_ptr<const element::Elements> Excitation::unreported() const {
+  if (fixed_.empty() || !drifting_.empty())
+    return nullptr;
+  auto out = std::make_shared<Excitation>(*this);
+  out->fixed_ = fixed_.first_and_last(n_moving_);
+  for (Body& body : out->bodies_)
+    body.still = body.froude_krylov = {};
+  return out;
+}
+
 std::shared_ptr<const element::Elements> Excitation::calm() const {
   auto out = std::make_shared<Excitation>(*this);
   out->fixed_ = sea::Signals();

@@ -63,6 +63,7 @@ public:
   bool lost_at_rest(std::size_t) const override { return false; }
   element::WavesFelt waves() const override;
   double elevation(double t) const override;
+  std::shared_ptr<const element::Elements> unreported() const override;
   std::shared_ptr<const element::Elements> calm() const override;
   std::shared_ptr<const element::Elements>
   stirred(const std::function<double()>& draw) const override;

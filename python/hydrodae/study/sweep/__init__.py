@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 from hydrodae.case import Case
 from hydrodae.errors import CaseError
+from hydrodae.study.sweep.batches import make_batches
 from hydrodae.study.sweep.cluster import run_points_on
 from hydrodae.study.sweep.journal import Journal
-from hydrodae.study.sweep.plan import RUNG, Study, point_key, read_study
+from hydrodae.study.sweep.plan import RUNG, Study, read_study
 from hydrodae.study.sweep.pool import run_points
 from hydrodae.study.sweep.rungs import open_case
 from hydrodae.study.sweep.table import claim, dataset, text, texts_of, write
@@ -72,8 +73,8 @@ def sweep(
     _check_keys(plan, case)
     record = target.with_name(target.stem + ".runs.jsonl")
     with Journal(record, plan.identity(case)) as journal:
-        left = [p for p in plan.points if point_key(p) not in journal.rows]
-        done = len(plan.points) - len(left)
+        left = make_batches(plan, journal.rows)
+        done = len(plan.points) - sum(len(batch.wanted) for batch in left)
         if left:
             what = (set or {}, plan.measures, plan.rungs, left)
             if scheduler is None:

@@ -8,11 +8,10 @@ from typing import Any
 
 from hydrodae.case import Case
 from hydrodae.errors import CaseError
+from hydrodae.study.sweep.batches import Batch, run_batch
 from hydrodae.study.sweep.journal import Row
 from hydrodae.study.sweep.measures import Measure
 from hydrodae.study.sweep.plan import point_key
-from hydrodae.study.sweep.points import Point
-from hydrodae.study.sweep.pool import run_case
 from hydrodae.study.sweep.rungs import open_case
 from hydrodae.support.extras import install_command
 from hydrodae.support.version import version
@@ -31,14 +30,14 @@ def run_there(
     values: Mapping[str, Any],
     measures: tuple[Measure, ...],
     rungs: tuple[str, ...],
-    point: Point,
-) -> Row:
-    """Run a point in a worker, which reads the case once."""
+    batch: Batch,
+) -> list[Row]:
+    """Run the points of a batch in a worker, which reads the case once."""
     try:
         case = _case(path, tuple(values.items()), rungs)
     except TypeError:  # values that cannot be compared, such as lists
         case = _case.__wrapped__(path, tuple(values.items()), rungs)
-    return run_case(case, measures, rungs, point)
+    return run_batch(case, measures, rungs, batch)
 
 
 def run_points_on(
@@ -47,12 +46,12 @@ def run_points_on(
     values: Mapping[str, Any],
     measures: tuple[Measure, ...],
     rungs: tuple[str, ...],
-    points: Sequence[Point],
+    batches: Sequence[Batch],
 ) -> Iterator[Row]:
     """Run the case at every point on the workers of a scheduler; rows come as they are finished.
 
-    The points of a worker that dies go to another one. A point at which several workers died in a
-    row is a row with that reason.
+    The points of a worker that dies go to another one. Points at which several workers died in a
+    row are rows with that reason.
 
     Raises
     ------
@@ -72,28 +71,29 @@ def run_points_on(
         raise CaseError(f"--scheduler {address}: {error}") from None
     with client:
         _check_versions(address, client.run(version))
-        left = iter(points)
+        left = iter(batches)
         width = 2 * max(1, sum(client.nthreads().values()))
         at = {}
 
         def submit(count: int) -> list[Any]:
             out: list[Any] = []
-            while len(out) < count and (point := next(left, None)) is not None:
+            while len(out) < count and (batch := next(left, None)) is not None:
                 out.append(
-                    client.submit(run_there, path, values, measures, rungs, point, pure=False)
+                    client.submit(run_there, path, values, measures, rungs, batch, pure=False)
                 )
-                at[out[-1].key] = point
+                at[out[-1].key] = batch
             return out
 
         queue = as_completed(submit(width), loop=client.loop)
         for future in queue:
-            point = at.pop(future.key)
+            batch = at.pop(future.key)
             try:
-                row = future.result()
+                yield from future.result()
             except KilledWorker as error:
-                row = {"key": point_key(point), "point": point, "status": "failed"}
-                row |= {"reason": f"workers died: {error}"}
-            yield row
+                for point in batch.points:
+                    if (key := point_key(point)) in batch.wanted:
+                        row = {"key": key, "point": point, "status": "failed"}
+                        yield row | {"reason": f"workers died: {error}"}
             for new in submit(1):
                 queue.add(new)
 

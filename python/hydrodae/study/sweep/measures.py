@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -257,13 +257,17 @@ def _fatigue(where: str, statistic: str, table: dict[str, Any]) -> dict[str, flo
     return {key: float(value) for key, value in given.items()}
 
 
-def measure(results: Results, measures: tuple[Measure, ...]) -> dict[str, tuple[float, str]]:
-    """All that is kept of a run: name to value and unit.
+def of_statistics(known: Mapping[str, Any]) -> dict[str, tuple[float, str]]:
+    """What is kept of every run: name to value and unit.
 
-    Beside NAME stand NAME_low and NAME_high, the ends of its sampling interval in an irregular
-    sea; nan of a run that is too short for one.
+    Beside a mean power stand the ends of its sampling interval in an irregular sea; nan of a run
+    that is too short for one.
+
+    Parameters
+    ----------
+    known : mapping from str
+        `Results.statistics`.
     """
-    known = results.statistics
     out = {name: (float(known[name]), unit) for name, unit in ALWAYS.items() if name in known}
     for name, value in known.items():
         if name.startswith("mean_power_absorbed."):
@@ -273,6 +277,16 @@ def measure(results: Results, measures: tuple[Measure, ...]) -> dict[str, tuple[
         if "sea_period" in known:
             low, high = (float(known.get(end, math.nan)) for end in ends)
             out |= _ends(name, low, high, "W")
+    return out
+
+
+def measure(results: Results, measures: tuple[Measure, ...]) -> dict[str, tuple[float, str]]:
+    """All that is kept of a run: name to value and unit.
+
+    Beside NAME stand NAME_low and NAME_high, the ends of its sampling interval in an irregular
+    sea; nan of a run that is too short for one.
+    """
+    out = of_statistics(results.statistics)
     for m in measures:
         out[m.name] = value, unit = m(results)
         if not m.over and (pair := m.interval(results)):

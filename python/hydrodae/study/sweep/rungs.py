@@ -12,7 +12,6 @@ import numpy as np
 from hydrodae.case import Case
 from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError
-from hydrodae.hdb.readers.reading import read
 from hydrodae.hdb.relations.dispersion import group_velocity
 from hydrodae.linear import LinearModel, without_memory
 from hydrodae.linear.sea import wave_components
@@ -64,14 +63,20 @@ def run_rung(rung: str, case: Case, measures: tuple[Measure, ...], timed: bool) 
         The case cannot be run so.
     """
     start = perf_counter()
-    found = RUNGS[rung](case, measures)
+    found = with_capture_width(case, RUNGS[rung](case, measures))
+    return found | ({"wall_time": (perf_counter() - start, "s")} if timed else {})
+
+
+def with_capture_width(case: Case, found: Found) -> Found:
+    """Add the width of crest whose power is absorbed, and the ends of its interval [m]."""
+    out = dict(found)
     if "mean_power_absorbed" in found and case.scene.wave_names and case.scene.database_path:
         flux = energy_flux(case)
         if flux > 0.0:
             for end in ("", *ENDS):
                 if power := found.get(f"mean_power_absorbed{end}"):
-                    found[f"capture_width{end}"] = (power[0] / flux, "m")
-    return found | ({"wall_time": (perf_counter() - start, "s")} if timed else {})
+                    out[f"capture_width{end}"] = (power[0] / flux, "m")
+    return out
 
 
 def energy_flux(case: Case) -> float:
@@ -85,9 +90,9 @@ def energy_flux(case: Case) -> float:
         The case has no waves.
     """
     waves = wave_components(case)
-    database = read(case.scene.database_path)
-    speed = group_velocity(waves[:, 0], database.water_depth, database.gravity)
-    return float(0.5 * database.rho * database.gravity * np.sum(waves[:, 2] ** 2 * speed))
+    rho, gravity, depth = case.scene.database_water
+    speed = group_velocity(waves[:, 0], depth, gravity)
+    return float(0.5 * rho * gravity * np.sum(waves[:, 2] ** 2 * speed))
 
 
 def _time(case: Case, measures: tuple[Measure, ...]) -> Found:

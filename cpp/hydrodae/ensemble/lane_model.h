@@ -1,0 +1,155 @@
+#pragma once
+/// Accelerations of several runs of one scene side by side:
+///
+///   [ M   G^T ] [  u'     ]   [ f      ]
+///   [ G   0   ] [ -lambda ] = [ -gamma ]
+///
+/// Masses, joints and the water are the same in all runs, and are evaluated in lanes. The laws of
+/// the elements (waves, take-offs, moorings) are those of each run, and are evaluated one run after
+/// the other.
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hydrodae/ensemble/lanes.h"
+#include "hydrodae/system/residual.h"
+
+namespace hydrodae::ensemble {
+
+using BodyLanes = element::BodyState<Lanes>;
+
+/// A symmetric positive definite matrix in lanes, by its Cholesky factor L.
+class LaneCholesky {
+public:
+  void resize(Index n);
+  Index size() const { return n_; }
+  void set_zero() { std::fill(entries_.begin(), entries_.end(), Lanes(0.0)); }
+  /// Entry of the lower triangle, column <= row.
+  Lanes& at(Index row, Index column) {
+    return entries_[static_cast<std::size_t>(row * n_ + column)];
+  }
+
+  /// M = L L^T. A pivot below `least` of its entry is replaced by that entry, and its lane is
+  /// cleared in `sound`.
+  void factorise(double least, std::array<bool, width>& sound);
+
+  /// x := L^-1 x where x is zero before `from`, and x := L^-T x.
+  void solve_forward(Lanes* x, Index from = 0) const;
+  /// Of four vectors.
+  void solve_forward(Lanes* const* x, Index from) const;
+  void solve_backward(Lanes* x) const;
+
+private:
+  const Lanes* row(Index i) const { return entries_.data() + i * n_; }
+  Index n_ = 0;
+  std::vector<Lanes> entries_;    ///< (n, n) by rows; the lower triangle counts
+  std::vector<Lanes> reciprocal_; ///< (n,) 1 / L_ii
+};
+
+class LaneModel {
+public:
+  /// @param runs `width` regimes that differ in the laws of their elements alone (see
+  ///   `why_not_together`); they outlive the model
+  explicit LaneModel(std::span<const system::Regime* const> runs);
+
+  Index size() const { return n_; } ///< of q, u and z
+
+  /// y' of q, u and z by y (n,). Lanes without finite accelerations are cleared in `sound`.
+  void accelerations(double t, const Lanes* y, Lanes* yp);
+
+  /// Moves q, then u, by the smallest amount in the metric of M onto the constraints, with the
+  /// matrix of the last `accelerations`.
+  void project(Lanes* y);
+
+  /// Is the lane computed well so far?
+  std::array<bool, width> sound;
+
+  // Of the state of the last `accelerations`:
+  const std::vector<Lanes>& absorbed() const { return absorbed_; } ///< by take-offs [W]
+  const Lanes& power() const { return power_; }     ///< of all loads but the reactions [W]
+  const Lanes& kinetic() const { return kinetic_; } ///< energy of bodies and fluid [J]
+
+  const std::vector<std::string>& take_offs() const { return take_offs_; }
+
+  /// The angles of run k are followed from y, y' at an accepted time on.
+  void accept(int k, double t, const VectorX& y, const VectorX& yp);
+  const system::Turns& turns(int k) const { return runs_[static_cast<std::size_t>(k)].state.turns; }
+
+private:
+  struct Run {
+    explicit Run(const system::Regime& regime);
+    const system::Regime& s;
+    system::Workspace<double> state;
+    VectorX y, still, residual; ///< (n,) `still`: zero rates
+  };
+  /// A row of a joint that holds, and the clusters of its bodies: one or two.
+  struct Row {
+    const system::JointData* joint = nullptr;
+    joint::BasicRow kind;
+    Index mu = 0, lambda = 0; ///< in the residual
+    struct Part {
+      int cluster = 0;
+      Index from = 0;       ///< first entry that is not zero
+      std::vector<Lanes> w; ///< L^-1 G^T
+    };
+    std::vector<Part> parts;
+    Lanes bias; ///< (dG/dt) u
+    joint::Vec12<Lanes> gradient;
+  };
+  /// Bodies whose accelerations feel each other through the water.
+  struct Cluster {
+    std::vector<int> bodies;
+    LaneCholesky mass;
+    std::vector<Lanes> load; ///< (n,) right-hand side, then accelerations
+    struct Feels {           ///< a row of a joint that feels the cluster
+      Index row = 0;         ///< in `rows_`
+      std::size_t part = 0;  ///< of that row
+    };
+    std::vector<Feels> rows;
+    Row::Part& part(std::vector<Row>& all, std::size_t i) const {
+      return all[static_cast<std::size_t>(rows[i].row)].parts[rows[i].part];
+    }
+  };
+  /// Turns of the force and of the moment from hydrodynamic axes into those of the momentum rows.
+  struct Turn {
+    Mat3<Lanes> force, moment;
+  };
+
+  void find_clusters();
+  void find_rows();
+  void see_bodies();
+  void add_elements(double t, const Lanes* y, Lanes* yp);
+  void add_water(const Lanes* y, Lanes* yp);
+  void add_inertia(const Lanes* y, Lanes* yp);
+  Vec6<Lanes> of_body(const system::HydroBody& hb, const std::vector<Lanes>& values) const;
+  Turn turn_of(const system::HydroBody& hb) const;
+  void fill_masses();
+  void add_water_mass(std::size_t i, std::size_t j);
+  void fill_rows();
+  void factorise_rows();
+  void solve();
+  template <class S> joint::Geometry<S> geometry(const system::JointData& j) const;
+  void close(const std::vector<Lanes>& gap, std::vector<Lanes>& step);
+  void take(const Lanes* y, std::size_t k);
+
+  const system::Regime& s_; ///< of the first run: what all have in common
+  const Index n_;
+  std::vector<Run> runs_;
+  std::vector<BodyLanes> bodies_;
+  std::vector<Vec6<Lanes>> loads_;
+  std::vector<Lanes> U_, U_dot_, momentum_, force_, damped_;
+  std::vector<Turn> turns_; ///< of each hydrodynamic body
+  std::vector<Cluster> clusters_;
+  std::vector<int> cluster_of_; ///< of each body; -1: it cannot move
+  std::vector<Index> offset_;   ///< of each body in its cluster
+  std::vector<Row> rows_;
+  LaneCholesky schur_; ///< G M^-1 G^T
+  std::vector<Lanes> lambda_;
+  std::vector<Lanes> absorbed_;
+  Lanes power_, kinetic_;
+  std::vector<std::string> take_offs_;
+};
+
+} // namespace hydrodae::ensemble

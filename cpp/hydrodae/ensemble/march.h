@@ -1,0 +1,47 @@
+#pragma once
+/// Runs of one scene in several seas, marched side by side with common steps.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hydrodae/model/scene.h"
+#include "hydrodae/simulation.h"
+#include "hydrodae/system/jacobian.h"
+
+namespace hydrodae::ensemble {
+
+/// A scene at its start: system, regime and consistent rates.
+struct Start {
+  /// Throws ModelError or SolverError when the scene cannot start.
+  /// @param like of a start whose pattern serves where the equations are alike; null: none
+  explicit Start(const model::Scene& scene, const Start* like = nullptr);
+  Start(const Start&) = delete;
+  Start& operator=(const Start&) = delete;
+
+  const model::Scene& scene;
+  system::System system;
+  system::Regime regime;
+  std::shared_ptr<const system::Pattern> pattern;
+  VectorX y, yp;
+};
+
+/// What a run alone needs, in words; empty: it can be marched beside others.
+std::string alone_because(const Start& start);
+
+/// In what two scenes differ so that they cannot be marched side by side; empty: they can.
+std::string apart_because(const Start& one, const Start& other);
+
+/// The outcome of one lane.
+struct Outcome {
+  std::optional<RunStatistics> statistics; ///< absent: the run has left the march
+  std::string left;                        ///< why, with the time
+};
+
+/// Marches at most `width` runs from 0 to their common end by the Runge-Kutta method of order 8
+/// (Dormand and Prince), whose local error is tested in each lane. Powers are summed by the stages
+/// of the method, no samples are kept.
+std::vector<Outcome> march(const std::vector<std::unique_ptr<Start>>& starts);
+
+} // namespace hydrodae::ensemble

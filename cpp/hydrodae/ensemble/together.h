@@ -1,0 +1,22 @@
+#pragma once
+/// Many runs at once: those that can share a march do (march.h).
+
+#include <string>
+#include <vector>
+
+#include "hydrodae/io/results_file.h"
+#include "hydrodae/model/scene.h"
+
+namespace hydrodae::ensemble {
+
+/// The outcome of one scene.
+struct Answer {
+  io::Attributes attributes; ///< those of a results file (session/output.h)
+  std::string alone;         ///< why the scene has to be run by itself; empty: `attributes` hold
+};
+
+/// Runs the scenes in groups of at most `width` that can be marched side by side, in their order.
+/// A scene that cannot start is left to a run by itself, which says why.
+std::vector<Answer> simulate_together(const std::vector<const model::Scene*>& scenes);
+
+} // namespace hydrodae::ensemble

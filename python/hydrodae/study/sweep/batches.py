@@ -1,0 +1,145 @@
+"""Points of a study that are run side by side, with common steps."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from hydrodae import _core
+from hydrodae.case import Case
+from hydrodae.errors import HydrodaeError, SolverError
+from hydrodae.study.sweep.journal import Row
+from hydrodae.study.sweep.measures import Measure, MeasureError, measure, of_statistics
+from hydrodae.study.sweep.plan import RUNG, Study, point_key
+from hydrodae.study.sweep.points import Point
+from hydrodae.study.sweep.rungs import DEFAULT, run_rung, with_capture_width
+
+#: One run in so many is made twice, so that its error is known: 5 % of the time of a study.
+VERIFIED = 20
+
+
+@dataclass(frozen=True)
+class Batch:
+    """Points that one process runs at a time.
+
+    Attributes
+    ----------
+    points : tuple of Point
+        They share a march where they can. The steps of a march are common, so that its numbers
+        depend on all points in it.
+    wanted : frozenset of str
+        Keys of the points whose rows are missing.
+    """
+
+    points: tuple[Point, ...]
+    wanted: frozenset[str]
+
+
+def is_verified(point: Point) -> bool:
+    """Whether the error of the run at a point is estimated: one point in `VERIFIED`, by its key."""
+    return zlib.crc32(repr(point_key(point)).encode()) % VERIFIED == 0
+
+
+def make_batches(plan: Study, finished: Iterable[str]) -> list[Batch]:
+    """Return what is left to run of a study.
+
+    Mean powers need no samples: runs that measure nothing else and have no estimate of their error
+    are gathered in the order of the study, whatever is finished, so that a sweep that goes on ends
+    with the same numbers.
+    """
+    left = {point_key(point) for point in plan.points} - set(finished)
+    shared: list[Point] = []
+    groups: list[tuple[Point, ...]] = []
+    for point in plan.points:
+        if plan.rungs != DEFAULT or plan.measures or is_verified(point):
+            groups.append((point,))
+            continue
+        shared.append(point)
+        if len(shared) == _core.lanes:
+            groups.append(tuple(shared))
+            shared.clear()
+    if shared:
+        groups.append(tuple(shared))
+    out = []
+    for group in groups:
+        if wanted := left.intersection(map(point_key, group)):
+            out.append(Batch(group, frozenset(wanted)))
+    return out
+
+
+def run_batch(
+    case: Case, measures: tuple[Measure, ...], rungs: tuple[str, ...], batch: Batch
+) -> list[Row]:
+    """Run a case at the points of a batch; a run that fails is a row with its reason.
+
+    Raises
+    ------
+    CaseError
+        What is measured is not in the results: no run of the study would have it.
+    """
+    if len(batch.points) == 1:
+        return [run_case(case, measures, rungs, batch.points[0])]
+    rows: dict[str, Row] = {}
+    together: list[tuple[Point, Case]] = []
+    for point in batch.points:
+        try:
+            together.append((point, case.with_values({**point, "solver.accuracy": "none"})))
+        except HydrodaeError as error:
+            rows[point_key(point)] = _refusal(point, error)
+    answers = _core.simulate_together([own.scene for _, own in together])
+    for (point, own), answer in zip(together, answers, strict=True):
+        if point_key(point) not in batch.wanted:
+            continue
+        if isinstance(answer, str):
+            rows[point_key(point)] = run_case(case, measures, rungs, point) | {"alone": answer}
+        else:
+            found = with_capture_width(own, of_statistics(answer))
+            rows[point_key(point)] = _completed(point, found)
+    return [row for key, row in rows.items() if key in batch.wanted]
+
+
+def run_case(
+    case: Case, measures: tuple[Measure, ...], rungs: tuple[str, ...], point: Point
+) -> Row:
+    """Run a case at a point by itself; a run that fails is a row with its reason.
+
+    Raises
+    ------
+    CaseError
+        What is measured is not in the results: no run of the study would have it.
+    """
+    values = {key: value for key, value in point.items() if key != RUNG}
+    if not is_verified(point):
+        values["solver.accuracy"] = "none"
+    try:
+        found = run_rung(
+            point.get(RUNG, rungs[0]), case.with_values(values), measures, rungs != DEFAULT
+        )
+    except MeasureError:
+        raise
+    except HydrodaeError as error:
+        return _refusal(point, error)
+    missing = [m.name for m in measures if m.name not in found]
+    if missing and "time" not in rungs:
+        raise MeasureError(
+            f"[result.{missing[0]}]: no rung of the study knows it: linear models give the "
+            "statistic 'std' of coordinates, joints and reactions (hydrodae rao lists them)"
+        )
+    return _completed(point, found)
+
+
+def _completed(point: Point, found: dict[str, tuple[float, str]]) -> Row:
+    return {
+        "key": point_key(point),
+        "point": point,
+        "status": "completed",
+        "reason": "",
+        "values": {name: value for name, (value, _) in found.items()},
+        "units": {name: unit for name, (_, unit) in found.items()},
+    }
+
+
+def _refusal(point: Point, error: HydrodaeError) -> Row:
+    kind = "failed" if isinstance(error, SolverError) else "refused"
+    return {"key": point_key(point), "point": point, "status": kind, "reason": str(error)}
