@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
 import numpy as np
+from tests.attack import parts
+from tests.attack.parts import Table
 from tests.scenes import slide
 
 import hydrodae
+from hydrodae.case.case import to_toml
 
 METHODS = ["ida", "radau", "explicit_rk"]
 G = 9.81
@@ -17,7 +24,7 @@ def on_a_slide(mass: float = 2.0, start: float = 0.0, speed: float = 0.0) -> str
 
 
 def block(
-    forces: str,
+    forces: str | Table | Sequence[Table],
     end: float,
     *,
     mass: float = 2.0,
@@ -26,12 +33,37 @@ def block(
     method: str = "radau",
     rtol: float = 1e-8,
     step: float = 0.01,
-    extra: str = "",
+    given: Any = None,
+    **more: Any,
 ) -> hydrodae.Results:
-    """Run a block on a slide under these forces."""
-    text = on_a_slide(mass, start, speed)
-    text += forces + f'[solver]\nend_time = {end}\nmethod = "{method}"\nrtol = {rtol}\n{extra}\n'
-    return hydrodae.run(hydrodae.Case.from_text(text + f"[output]\nstep = {step}\n"))
+    """Run a block on a slide under these forces; `more` are other tables."""
+    case = block_case(forces, end, mass=mass, start=start, speed=speed, step=step, **more)
+    settings = {"solver.method": method, "solver.rtol": rtol}
+    return hydrodae.run(case, set=settings, forces=given)
+
+
+def block_case(
+    forces: str | Table | Sequence[Table],
+    end: float,
+    *,
+    mass: float = 2.0,
+    start: float = 0.0,
+    speed: float = 0.0,
+    step: float = 0.01,
+    **more: Any,
+) -> hydrodae.Case:
+    """Return the case of a block on a slide under these forces."""
+    if isinstance(forces, str):
+        text = on_a_slide(mass, start, speed) + forces
+        text += f"[solver]\nend_time = {end}\n[output]\nstep = {step}\n"
+        return hydrodae.Case.from_text(text)
+    initial = dict(displacement=[start, 0.0, 0.0], velocity=[speed, 0.0, 0.0])
+    mover = parts.body("block", "surge", mass, **initial)
+    guide = parts.joint("slide", "prismatic", "ground", "block", axis=parts.X)
+    every = [forces] if isinstance(forces, dict) else forces
+    output = {"output": {"step": step}}
+    tables = parts.case([mover], end, gravity=0.0, joints=[guide], forces=every, **output, **more)
+    return case_of(tables)
 
 
 def heaving(masses: dict[str, tuple[float, tuple[float, float, float]]]) -> str:
@@ -51,6 +83,18 @@ def run_text(
         f'[solver]\nend_time = {end}\nmethod = "{method}"\nrtol = {rtol}\n[output]\nstep = {step}\n'
     )
     return hydrodae.run(hydrodae.Case.from_text(text))
+
+
+def case_of(tables: Mapping[str, Any], folder: Path = Path(), **solver: Any) -> hydrodae.Case:
+    """Return the case of tables as those of tests/attack/parts.py, with these keys of [solver]."""
+    tables = {**tables, "solver": {**tables.get("solver", {}), **solver}}
+    lines = [f"{key} = {to_toml(value, key)}\n" for key, value in tables.items()]
+    return hydrodae.Case.from_text("".join(lines), folder)
+
+
+def run_tables(tables: Mapping[str, Any], folder: Path = Path(), **solver: Any) -> hydrodae.Results:
+    """Run the case of tables."""
+    return hydrodae.run(case_of(tables, folder, **solver))
 
 
 def height_of(run: hydrodae.Results, body: str) -> np.ndarray:
