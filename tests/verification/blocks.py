@@ -61,7 +61,7 @@ def block_case(
     mover = parts.body("block", "surge", mass, **initial)
     guide = parts.joint("slide", "prismatic", "ground", "block", axis=parts.X)
     every = [forces] if isinstance(forces, dict) else forces
-    output = {"output": {"step": step}}
+    output: Table = {"output": {"step": step}}
     tables = parts.case([mover], end, gravity=0.0, joints=[guide], forces=every, **output, **more)
     return case_of(tables)
 

@@ -39,12 +39,12 @@ def test_hydraulic_power_is_what_the_motor_takes_and_the_gas_stores(
     method: str, polytropic: float
 ) -> None:
     """A driven piston: absorbed = motor + stored, where the gas stores int p dV."""
-    pto = dict(type="pto_hydraulic", name="pto", joint="slide", valve_rate=0.02)
-    pto |= dict(area=1e-3, motor_conductance=1e-10, polytropic=polytropic)
-    pto |= dict(pressure_high=2e6, pressure_low=5e5, volume_high=1e-3, volume_low=2e-3)
+    machine: Table = dict(type="pto_hydraulic", name="pto", joint="slide", valve_rate=0.02)
+    machine |= dict(area=1e-3, motor_conductance=1e-10, polytropic=polytropic)
+    machine |= dict(pressure_high=2e6, pressure_low=5e5, volume_high=1e-3, volume_low=2e-3)
     moves = crank(amplitude=0.3, period=2.0)
     speed = 0.3 * np.pi  # of the drive at t = 0
-    results = block(pto, 6.0, method=method, step=0.001, speed=speed, constraint=moves)
+    results = block(machine, 6.0, method=method, step=0.001, speed=speed, constraint=moves)
     pto = {
         name: results[f"forces/pto/{name}"].values
         for name in ("force", "power_absorbed", "pressure_high", "pressure_low", "motor_power")

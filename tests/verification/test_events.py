@@ -180,7 +180,7 @@ def test_an_arm_strikes_a_stop_through_its_hinge() -> None:
 def test_two_blocks_strike_one_after_the_other() -> None:
     """Two masses on one line with a one-sided link of 1 m: momentum is kept at the snap."""
     at = [0.5, 0.0, 0.0]
-    more = dict(point_b=at, length=1.0, one_sided=True, restitution=0.5)
+    more: Table = dict(point_b=at, length=1.0, one_sided=True, restitution=0.5)
     tables = case(
         [body("a", "surge", 3.0), body("b", "surge", 1.0, at, velocity=[2.0, 0.0, 0.0])],
         1.0,

@@ -51,7 +51,7 @@ def force_on_fairlead(d: Array, length: float = LENGTH, w: float = WEIGHT) -> Ar
 
 def line(name: str, anchor: Array, fairlead: Array, length: float = LENGTH) -> Table:
     keys = dict(type="catenary", name=name, body_b="buoy", length=[length])
-    ends = dict(point_a=anchor.tolist(), point_b=fairlead.tolist())
+    ends: Table = dict(point_a=anchor.tolist(), point_b=fairlead.tolist())
     return {**keys, **ends, "weight": [WEIGHT], "stiffness": [EA]}
 
 
@@ -62,7 +62,7 @@ def scene(
     lift = (load + np.array([0.0, 0.0, 2e5 * 9.81])).tolist()
     current = dict(type="constant_load", name="current", body="buoy", force=lift)
     diagonal = [0.0, 0.0, stiff, 5e7, 5e7, 0.0]
-    water = dict(type="mooring_matrix", name="water", body="buoy", stiffness=diagonal)
+    water: Table = dict(type="mooring_matrix", name="water", body="buoy", stiffness=diagonal)
     buoy = body("buoy", motion, 2e5, inertia=[1e7] * 3)
     return case_of(case([buoy], 1.0, forces=[current, water, *lines]))
 
@@ -163,7 +163,7 @@ def test_random_scenes(seed: int) -> None:
 def test_ropes_from_slack_to_taut() -> None:
     """Nothing holds the start: the equilibrium is 12 m away, where two slack ropes come taut."""
     current = dict(type="constant_load", name="current", body="buoy", force=[2e3, 0.0, 0.0])
-    rope = dict(type="rope", bodies=["ground", "buoy"], stiffness=1e7, length=33.0)
+    rope: Table = dict(type="rope", bodies=["ground", "buoy"], stiffness=1e7, length=33.0)
     ropes = [
         {**rope, "name": f"rope{side}", "points": [[-20.0, side, 0.0], [0.0] * 3]}
         for side in (-8, 8)
@@ -223,7 +223,7 @@ def hanging(stiffness: float) -> hydrodae.Case:
     """A load on a rope between soft springs, in a wind."""
     at = [3.0, 5.0, -10.0]
     springs = [0.5, 0.5, 0.5, 0.0, 0.0, 0.0]
-    ends = dict(bodies=["ground", "load"], points=[[3.0, 5.0, -5.0], at])
+    ends: Table = dict(bodies=["ground", "load"], points=[[3.0, 5.0, -5.0], at])
     forces = [
         dict(type="mooring_matrix", name="soft", body="load", stiffness=springs),
         dict(type="constant_load", name="wind", body="load", force=[0.0, 0.3, 0.0]),
@@ -249,6 +249,6 @@ def test_buoyancy_of_a_volume_is_no_mooring() -> None:
     buoy = body("buoy", "heave", 1000.0, [0.0, 0.0, -5.0]) | {"volume": 1.5}
     ends = [0.0, 0.0, -20.0], [0.0, 0.0, -6.0]
     tether = spring("tether", "ground", "buoy", *ends, 1e5, length=13.9)
-    water = {"environment": {"water_density": 1000.0}}
+    water: Table = {"environment": {"water_density": 1000.0}}
     found = hydrodae.equilibrium(case_of(case([buoy], 1.0, forces=[tether], **water)))
     assert [hold.name for hold in found.moorings] == ["tether"]

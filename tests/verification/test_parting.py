@@ -20,7 +20,7 @@ OVER: dict[str, Table] = {
     "rope": {"points": [[0.0, 0.0, LENGTH], [0.0] * 3]},
     "sheave": {"points": [[-0.5, 0.0, 0.0], [0.0, 0.0, 4.0], [0.5, 0.0, 0.0]], **DRUM},
 }
-LIMIT = {"breaks": True, "breaking_load": 1.5 * MASS * G}
+LIMIT: Table = {"breaks": True, "breaking_load": 1.5 * MASS * G}
 
 
 def dropped(kind: str = "rope", **keys: Any) -> tuple[list[Table], Table]:
@@ -108,7 +108,7 @@ def test_a_catenary_parts_where_its_weakest_part_is_overloaded() -> None:
 def test_a_line_parts_at_the_segment_that_bears_most(method: str) -> None:
     """A mass that drops into a light line that parts at its top: both fall free."""
     ends = dict(body_b="load", point_a=[0.0, 0.0, LENGTH], point_b=[0.0] * 3)
-    line = dict(type="line", name="line", length=[LENGTH], segments=[6], mass=[1e-3], **ends)
+    line: Table = dict(type="line", name="line", length=[LENGTH], segments=[6], mass=[1e-3], **ends)
     line |= dict(stiffness=[EA], damping_ratio=[0.3])
     line |= dict(breaking_load=[1.5 * MASS * G], breaks=True)
     push = dict(type="constant_load", name="push", body="load", force=[0, 0, -MASS * G])
@@ -156,7 +156,7 @@ def test_fixed_steps_end_where_a_damped_rope_parts_at_its_first_pull(
     solver: dict[str, Any],
 ) -> None:
     """It bears 100 N and its damper would take 200 N at once: the mass falls on as if alone."""
-    damped = dict(length=LENGTH + 0.1, damping=150.0 * LENGTH)
+    damped: Table = dict(length=LENGTH + 0.1, damping=150.0 * LENGTH)
     masses, line = dropped(breaks=True, breaking_load=100.0, **damped)
     tables = hung(masses, line, end=0.4, samples=20)
     run = run_tables(tables, step=0.0077, **solver)

@@ -131,7 +131,7 @@ def test_a_rope_turns_the_wheel_that_it_sticks_to() -> None:
     ends = [[-RADIUS, 0.0, -40.0], [0.0, 0.0, 0.0], [RADIUS, 0.0, -40.0]]
     masses = [heaving("light", M_1, ends[0]), heaving("heavy", M_2, ends[2])]
     wheel = body("wheel", ["pitch"], 5.0, inertia=[inertia] * 3)
-    elastic = dict(stiffness=1e8, damping=4e5, pretension=98.1, friction=[0.3])
+    elastic: Table = dict(stiffness=1e8, damping=4e5, pretension=98.1, friction=[0.3])
     line = rope("light", "wheel", "heavy", points=ends, **DRUM, **elastic)
     run = run_hung([*masses, wheel], line, end=5.0)
     assert (slip(run) == 0.0).all()
@@ -146,7 +146,7 @@ def test_a_rope_turns_the_wheel_that_it_sticks_to() -> None:
 
 def test_a_pendulum_on_a_drum_that_it_sticks_to_keeps_its_energy() -> None:
     """The rope is laid on the drum and comes off without slip: the energy is kept."""
-    keys = dict(stiffness=1e5, pretension=2.0 * G, friction=[3.0])
+    keys: Table = dict(stiffness=1e5, pretension=2.0 * G, friction=[3.0])
     run = run_hung([bob()], rope("ground", "ground", "bob", **OVER, **keys), end=3.0)
     height = run["bodies/bob/position"].values[:, 2]
     energy = run["energy/total"].values
@@ -160,8 +160,10 @@ def test_friction_of_many_places_multiplies(damping: float) -> None:
     """Hauled in by a winch over a sheave, a free sheave and a point: T = m g exp(sum mu phi)."""
     mass, mu = 10.0, 0.2
     points = [POINTS[0], [0, 0, 0], [4, 0, 0], [4.5, 0, -3], [8, 0, -3]]
-    sheaves = dict(radii=[0, RADIUS, RADIUS, 0, 0], axes=[[0, 0, 0], Y, Y, [0, 0, 0], [0, 0, 0]])
-    winch = dict(winch_time=[0.0, 0.5], winch_length=[16.0695, 15.9695])
+    sheaves: Table = dict(
+        radii=[0, RADIUS, RADIUS, 0, 0], axes=[[0, 0, 0], Y, Y, [0, 0, 0], [0, 0, 0]]
+    )
+    winch: Table = dict(winch_time=[0.0, 0.5], winch_length=[16.0695, 15.9695])
     line = rope("load", *["ground"] * 4, points=points, **sheaves, **winch)
     line |= dict(stiffness=1e6, damping=damping, friction=[0, mu, 0, mu, 0])
     run = run_hung([heaving("load", mass, POINTS[0])], line, end=0.5, rtol=1e-8, step=0.001)
@@ -198,7 +200,7 @@ def test_a_load_hauled_over_a_bar_in_the_steady_state(method: str) -> None:
     ends = [20.0, 0.0, -3.0], [20.0, 0.0, 0.0]
     beside = spring("spring", "ground", "buoy", *ends, 4000.0, 50.0)
     wave = driven("wave", {"amplitude": 0.3, "period": 2.0}, body="float", coordinate="heave")
-    keys = dict(stiffness=2e5, damping=2e3, pretension=392.4, friction=[0.08])
+    keys: Table = dict(stiffness=2e5, damping=2e3, pretension=392.4, friction=[0.08])
     line = rope("float", "ground", "load", **OVER, **keys)
     run = run_hung(bodies, beside, line, end=6.0, method=method, rtol=1e-7, constraints=[wave])
     one, two = tensions(run).T
@@ -271,7 +273,7 @@ def test_a_stop_struck_turns_the_slip_round() -> None:
     gain + what friction and impacts take, and friction never gives."""
     rail = joint("rail", "prismatic", "ground", "heavy", POINTS[2], Z)
     heavy = body("heavy", "rigid", 25.0, POINTS[2], [1.0] * 3)
-    more = dict(joints=[rail], constraints=[stop("floor", "rail", 0.5, lower=-0.3)])
+    more: Table = dict(joints=[rail], constraints=[stop("floor", "rail", 0.5, lower=-0.3)])
     line = bar(0.2, stiffness=1e5, damping=1e3, pretension=98.1)
     bodies = [heaving("light", 10.0, POINTS[0]), heavy]
     runs = [

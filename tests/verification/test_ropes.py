@@ -89,7 +89,7 @@ def test_ring_on_a_rope(
 
 
 def test_winch_gives_the_energy_that_is_there_in_the_end() -> None:
-    winch = dict(
+    winch: Table = dict(
         winch_time=[0.0, 40.0, 42.0, 44.0, 100.0], winch_length=[9.98038, 9.98038, 8.5, 7.0, 7.0]
     )
     at = [0.0, 0.0, -10.0]

@@ -115,7 +115,7 @@ def test_a_float_on_a_vertical_guide_floats_freely(repository: Path) -> None:
 
 def test_a_mooring_with_pretension_is_part_of_the_balance(repository: Path) -> None:
     missing = 9.81 * 0.4 * MASS
-    tether = dict(type="mooring_matrix", name="tether", body="sphere")
+    tether: Table = dict(type="mooring_matrix", name="tether", body="sphere")
     tether |= dict(stiffness=[0, 0, 1.0e3, 0, 0, 0], pretension=[0, 0, -missing, 0, 0, 0])
     assert complaints(sphere(repository, mass=0.6 * MASS, forces=[tether])) == []
     assert complaints(sphere(repository, mass=0.6 * MASS)) != []
@@ -259,7 +259,7 @@ def test_ropes_stretched_beyond_rubber(keys: Table, complaint: str) -> None:
     places: Table = {"body_b": "pole", "point_a": low, "point_b": high}
     if keys["type"] == "rope":
         places = {"bodies": ["ground", "pole"], "points": [low, high]}
-    tether = {"name": "tether", **places, **keys}
+    tether: Table = {"name": "tether", **places, **keys}
     found = complaints(pole(depth=12.0, forces=[tether]))
     assert len(found) == (1 if complaint else 0)
     assert all(complaint in text and "force 'tether'" in text for text in found)

@@ -45,8 +45,8 @@ def test_a_spring_that_pushes_away_has_two_places_of_rest() -> None:
 
 def test_a_curve_goes_through_its_points() -> None:
     """Driven along it, the load at each point is that of the table, and beyond it straight on."""
-    at, loads = [-0.2, 0.0, 0.1, 0.3], [-30.0, 0.0, 5.0, 35.0]
-    law = _spring("spring", curve_at=at, curve_force=loads)
+    points, loads = [-0.2, 0.0, 0.1, 0.3], [-30.0, 0.0, 5.0, 35.0]
+    law = _spring("spring", curve_at=points, curve_force=loads)
     moves = [driven("drive", {"constant": -0.4, "rate": 0.1}, joint="slide")]
     run = block(law, 8.0, start=-0.4, speed=0.1, step=1.0, constraint=moves)
     force = run["forces/spring/force"].values
