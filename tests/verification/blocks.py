@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from tests.attack import parts
 from tests.attack.parts import Table
-from tests.scenes import slide
 
 import hydrodae
 from hydrodae.case.case import to_toml
@@ -18,13 +17,8 @@ METHODS = ["ida", "radau", "explicit_rk"]
 G = 9.81
 
 
-def on_a_slide(mass: float = 2.0, start: float = 0.0, speed: float = 0.0) -> str:
-    """Return a block on a slide."""
-    return slide("block", mass=mass, displacement=[start, 0.0, 0.0], velocity=[speed, 0.0, 0.0])
-
-
 def block(
-    forces: str | Table | Sequence[Table],
+    forces: Table | Sequence[Table],
     end: float,
     *,
     mass: float = 2.0,
@@ -43,7 +37,7 @@ def block(
 
 
 def block_case(
-    forces: str | Table | Sequence[Table],
+    forces: Table | Sequence[Table],
     end: float,
     *,
     mass: float = 2.0,
@@ -53,10 +47,6 @@ def block_case(
     **more: Any,
 ) -> hydrodae.Case:
     """Return the case of a block on a slide under these forces."""
-    if isinstance(forces, str):
-        text = on_a_slide(mass, start, speed) + forces
-        text += f"[solver]\nend_time = {end}\n[output]\nstep = {step}\n"
-        return hydrodae.Case.from_text(text)
     initial = dict(displacement=[start, 0.0, 0.0], velocity=[speed, 0.0, 0.0])
     mover = parts.body("block", "surge", mass, **initial)
     guide = parts.joint("slide", "prismatic", "ground", "block", axis=parts.X)
@@ -64,25 +54,6 @@ def block_case(
     output: Table = {"output": {"step": step}}
     tables = parts.case([mover], end, gravity=0.0, joints=[guide], forces=every, **output, **more)
     return case_of(tables)
-
-
-def heaving(masses: dict[str, tuple[float, tuple[float, float, float]]]) -> str:
-    """Point masses that can only heave."""
-    out = f"[environment]\ngravity = {G}\n"
-    for name, (mass, place) in masses.items():
-        out += f'[[body]]\nname = "{name}"\nmotion = "heave"\nmass = {mass}\n'
-        out += f"center_of_gravity = {list(place)}\n"
-    return out
-
-
-def run_text(
-    text: str, end: float, *, method: str = "radau", rtol: float = 1e-9, step: float = 0.01
-) -> hydrodae.Results:
-    """Run a case of this text."""
-    text += (
-        f'[solver]\nend_time = {end}\nmethod = "{method}"\nrtol = {rtol}\n[output]\nstep = {step}\n'
-    )
-    return hydrodae.run(hydrodae.Case.from_text(text))
 
 
 def case_of(tables: Mapping[str, Any], folder: Path = Path(), **solver: Any) -> hydrodae.Case:

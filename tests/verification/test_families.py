@@ -52,7 +52,12 @@ TIGHT: list[Row] = [
 ]
 
 
-CELLS = [*product(little_inertia(), ALL), *product(TIGHT, ALL[1:])]
+#: Torsion springs wound up by three turns to each side; fixed steps have a bound of their own.
+WOUND: list[Row] = [
+    ("wound_vector", dict(how=how, axis=(2.0, -3.0, 6.0), amplitude=20.0, rate=2.0), 1e-9, 1e-4)
+    for how in ("mooring_matrix", "bushing", "pto_rotary")
+]
+CELLS = [*product(little_inertia(), ALL), *product(TIGHT + WOUND, ALL[1:])]
 
 
 def label(value: Any) -> str:
@@ -65,3 +70,12 @@ def test_every_method_is_exact(row: Row, method: str, tmp_path: Path) -> None:
     scene = FAMILIES[family].make(**values)
     results = hydrodae.run(scene.case({"method": method, "rtol": rtol}, tmp_path))
     assert scene.error(results) < within
+
+
+@pytest.mark.parametrize("method", ["generalized_alpha", "gauss"])
+@pytest.mark.parametrize("row", WOUND, ids=label)
+def test_fixed_steps_wind_up_springs(row: Row, method: str, tmp_path: Path) -> None:
+    family, values, _, _ = row
+    scene = FAMILIES[family].make(**values)
+    case = scene.case({"method": method, "step": 0.002, "end_time": 4.0}, tmp_path)
+    assert scene.error(hydrodae.run(case)) < 1e-2

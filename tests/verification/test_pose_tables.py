@@ -305,19 +305,19 @@ def test_the_added_mass_of_a_small_sphere_keeps_the_energy(tmp_path: Path, refer
     i = rest.coordinates.index("sphere.heave")
     files, poses = [], radius * rows["z_over_R"]
     for k, (pose, added) in enumerate(zip(poses, rows["A_extrapolated_kg"], strict=True)):
-        table = np.zeros_like(rest.added_mass_inf)
-        table[i, i] = added
+        inf = np.zeros_like(rest.added_mass_inf)
+        inf[i, i] = added
         point = np.array([0.0, 0.0, pose])
         hull = replace(rest.bodies["sphere"], reference_point=point, hydrostatics=None)
         files.append(f"pose{k}.h5")
         replace(
-            rest, added_mass_inf=table, rho=998.2, bodies={"sphere": hull}, memory={}, kernel=None
+            rest, added_mass_inf=inf, rho=998.2, bodies={"sphere": hull}, memory={}, kernel=None
         ).write(tmp_path / files[-1])
     hulls.write_obj(tmp_path / "sphere.obj", hulls.sphere(radius, 12))
     middle = files[int(np.abs(poses).argmin())]
     ball = body("ball", "heave", mass, displacement=[0.0, 0.0, 0.8 * radius])
     ball |= {"hydro": "sphere", "mesh": "sphere.obj", "hydrostatics": "mesh"}
-    table = dict(name="depth", body="ball", coordinate="heave")
+    table: Table = dict(name="depth", body="ball", coordinate="heave")
     table |= dict(values=poses.tolist(), databases=files)
     water = {"database": middle, "radiation": "none"}
     tables = case([ball], 4.0, hydro=water, pose_table=[table], samples=400)
