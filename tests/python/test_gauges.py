@@ -28,7 +28,11 @@ REGULAR |= dict(heading_deg=30.0, phase_deg=40.0)
 IRREGULAR: Table = dict(name="storm", type="jonswap", significant_height=1.5, peak_period=4.0)
 IRREGULAR |= dict(components=20, spreading=8.0)
 FRONT = {"name": "front", "point": [-20.0, 5.0], "ahead": [0.5, 2.0]}
-GAUGES = [{"name": "origin"}, FRONT, {"name": "with", "marker": "nose", "ahead": [1.0]}]
+GAUGES: list[Table] = [
+    {"name": "origin"},
+    FRONT,
+    {"name": "with", "marker": "nose", "ahead": [1.0]},
+]
 
 
 def law(kind: str, **keys: Any) -> list[Table]:
