@@ -21,6 +21,7 @@ note "a sample of mutated inputs"
 note "style"
 .venv/bin/ruff check .
 .venv/bin/ruff format --check .
+.venv/bin/python -m tests.lint
 find cpp python/bindings tests \( -name '*.h' -o -name '*.cpp' \) -print0 |
   xargs -0 .venv/bin/clang-format --dry-run -Werror
 

@@ -229,8 +229,8 @@ def falling_nut(pitch: float, end: float) -> Scene:
         size=k * way,
         time_scale=tau,
         source="closed form",
-        truth=lambda t: np.column_stack([-0.5 * fall * t**2 * k]),
-        measured=channel("joints/screw/angle"),
+        truth=lambda t: np.outer(-0.5 * fall * t**2, [k, 1.0]),
+        measured=channel("joints/screw/angle", "joints/screw/displacement"),
         unit="rad",
     )
 

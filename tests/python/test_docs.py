@@ -9,7 +9,6 @@ import shutil
 import subprocess
 import sys
 import tomllib
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -83,15 +82,6 @@ RUN_APART = {
 }
 
 
-def commands(page: Path) -> Iterator[list[str]]:
-    """Arguments of every line that calls hydrodae, run or not; without comments."""
-    text = "".join(b.text for b in all_blocks(page) if b.language == "sh").replace("\\\n", " ")
-    for line in text.splitlines():
-        found = re.fullmatch(r"(?:\S*/)?hydrodae (.*)", line.strip())
-        if found:
-            yield shlex.split(found[1], comments=True)
-
-
 def test_every_block_is_run_or_says_why_not(repository: Path) -> None:
     """A block of a new kind or on a new page needs a test, or `<!-- not run: REASON -->`."""
     found: dict[tuple[str, str], int] = {}
@@ -123,24 +113,6 @@ def test_no_code_stands_in_indented_blocks(repository: Path) -> None:
     for page in pages(repository):
         text = re.sub(r"^```.*?^```$", "", page.read_text(), flags=re.DOTALL | re.MULTILINE)
         assert not re.findall(r"\n\n    \S.*", text), page.name
-
-
-def can_be_parsed(arguments: list[str]) -> bool:
-    try:
-        cli._parser(arguments[:1]).parse_args(arguments)
-    except SystemExit as end:  # of --help and --version, or a wrong argument
-        return end.code == 0
-    return True
-
-
-def test_every_command_of_the_pages_can_be_parsed(repository: Path) -> None:
-    number = 0
-    for page in pages(repository):
-        for arguments in commands(page):
-            told = f"{page.name}: hydrodae {shlex.join(arguments)}"
-            assert can_be_parsed(arguments), told
-            number += 1
-    assert number > 25
 
 
 def test_every_table_of_the_pages_is_one_that_the_kernel_reads(repository: Path) -> None:

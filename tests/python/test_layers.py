@@ -97,20 +97,3 @@ def test_no_code_asks_for_a_type_or_method_by_its_name(repository: Path) -> None
         if asks.search(line)
     ]
     assert not wrong
-
-
-def test_files_that_comments_name_exist(repository: Path) -> None:
-    """By the end of their path, as far as the comment gives it."""
-    folders = ("cpp", "python", "tests", "docs", "cases")
-    paths = [
-        f"/{file.relative_to(repository)}" for d in folders for file in (repository / d).rglob("*")
-    ]
-    named = re.compile(r"//.*?([\w/]+\.(?:h|cpp|py|md|toml)\b)")
-    wrong = [
-        f"{file.relative_to(repository)}:{number}: {match[1]}"
-        for file in sorted((repository / "cpp").rglob("*.[ch]*"))
-        for number, line in enumerate(file.read_text().splitlines(), 1)
-        for match in named.finditer(line)
-        if not any(path.endswith(f"/{match[1]}") for path in paths)
-    ]
-    assert not wrong

@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
 import numpy as np
-from tests.scenes import slide
+from tests.attack import parts
+from tests.attack.parts import Table
 
 import hydrodae
+from hydrodae.case.case import to_toml
 
 METHODS = ["ida", "radau", "explicit_rk"]
 G = 9.81
 
 
-def on_a_slide(mass: float = 2.0, start: float = 0.0, speed: float = 0.0) -> str:
-    """Return a block on a slide."""
-    return slide("block", mass=mass, displacement=[start, 0.0, 0.0], velocity=[speed, 0.0, 0.0])
-
-
 def block(
-    forces: str,
+    forces: Table | Sequence[Table],
     end: float,
     *,
     mass: float = 2.0,
@@ -26,31 +27,45 @@ def block(
     method: str = "radau",
     rtol: float = 1e-8,
     step: float = 0.01,
-    extra: str = "",
+    given: Any = None,
+    **more: Any,
 ) -> hydrodae.Results:
-    """Run a block on a slide under these forces."""
-    text = on_a_slide(mass, start, speed)
-    text += forces + f'[solver]\nend_time = {end}\nmethod = "{method}"\nrtol = {rtol}\n{extra}\n'
-    return hydrodae.run(hydrodae.Case.from_text(text + f"[output]\nstep = {step}\n"))
+    """Run a block on a slide under these forces; `more` are other tables."""
+    case = block_case(forces, end, mass=mass, start=start, speed=speed, step=step, **more)
+    settings = {"solver.method": method, "solver.rtol": rtol}
+    return hydrodae.run(case, set=settings, forces=given)
 
 
-def heaving(masses: dict[str, tuple[float, tuple[float, float, float]]]) -> str:
-    """Point masses that can only heave."""
-    out = f"[environment]\ngravity = {G}\n"
-    for name, (mass, place) in masses.items():
-        out += f'[[body]]\nname = "{name}"\nmotion = "heave"\nmass = {mass}\n'
-        out += f"center_of_gravity = {list(place)}\n"
-    return out
+def block_case(
+    forces: Table | Sequence[Table],
+    end: float,
+    *,
+    mass: float = 2.0,
+    start: float = 0.0,
+    speed: float = 0.0,
+    step: float = 0.01,
+    **more: Any,
+) -> hydrodae.Case:
+    """Return the case of a block on a slide under these forces."""
+    initial = dict(displacement=[start, 0.0, 0.0], velocity=[speed, 0.0, 0.0])
+    mover = parts.body("block", "surge", mass, **initial)
+    guide = parts.joint("slide", "prismatic", "ground", "block", axis=parts.X)
+    every = [forces] if isinstance(forces, dict) else forces
+    output: Table = {"output": {"step": step}}
+    tables = parts.case([mover], end, gravity=0.0, joints=[guide], forces=every, **output, **more)
+    return case_of(tables)
 
 
-def run_text(
-    text: str, end: float, *, method: str = "radau", rtol: float = 1e-9, step: float = 0.01
-) -> hydrodae.Results:
-    """Run a case of this text."""
-    text += (
-        f'[solver]\nend_time = {end}\nmethod = "{method}"\nrtol = {rtol}\n[output]\nstep = {step}\n'
-    )
-    return hydrodae.run(hydrodae.Case.from_text(text))
+def case_of(tables: Mapping[str, Any], folder: Path = Path(), **solver: Any) -> hydrodae.Case:
+    """Return the case of tables as those of tests/attack/parts.py, with these keys of [solver]."""
+    tables = {**tables, "solver": {**tables.get("solver", {}), **solver}}
+    lines = [f"{key} = {to_toml(value, key)}\n" for key, value in tables.items()]
+    return hydrodae.Case.from_text("".join(lines), folder)
+
+
+def run_tables(tables: Mapping[str, Any], folder: Path = Path(), **solver: Any) -> hydrodae.Results:
+    """Run the case of tables."""
+    return hydrodae.run(case_of(tables, folder, **solver))
 
 
 def height_of(run: hydrodae.Results, body: str) -> np.ndarray:

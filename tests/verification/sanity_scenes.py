@@ -3,108 +3,62 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
+
+from tests.attack.parts import Table, Vector, Y, body, case, joint
+from tests.verification.blocks import case_of
 
 import hydrodae
 
-SPHERE = """
-[hydro]
-database = "hydro.h5"
-radiation = "none"
-
-[[body]]
-name = "sphere"
-hydro = "sphere"
-motion = {motion}
-mass = {mass}
-center_of_gravity = [0.0, 0.0, -2.0]
-inertia = [{inertia}, {inertia}, {inertia}]
-
-{more}
-
-[solver]
-end_time = 1.0
-"""
-FLAP = """
-[hydro]
-database = "hydro.h5"
-radiation = "none"
-[[body]]
-name = "flap"
-hydro = "flap1"
-motion = {motion}
-mass = {mass}
-center_of_gravity = [-12.5, 0.0, -5.5]
-inertia = {inertia}
-{more}
-[solver]
-end_time = 1.0
-"""
-HINGE = """
-[[joint]]
-name = "hinge"
-type = "revolute"
-body_a = "ground"
-body_b = "flap"
-point = {point}
-axis = [0.0, 1.0, 0.0]
-initial.angle_deg = {angle}
-"""
-PTO = '[[force]]\ntype = "pto_linear"\nname = "pto"\njoint = "hinge"\ndamping = 1.0e6\n'
+PTO = dict(type="pto_linear", name="pto", joint="hinge", damping=1.0e6)
 MASS = 261.8e3
 GYRATION = 2.0e6
+WATER = {"database": "hydro.h5", "radiation": "none"}
 
 
 def sphere(
     repository: Path,
     *,
     mass: float = MASS,
-    motion: str = '"heave"',
+    motion: str = "heave",
     inertia: float = GYRATION,
-    more: str = "",
+    **more: Any,
 ) -> hydrodae.Case:
-    text = SPHERE.format(mass=mass, motion=motion, inertia=inertia, more=more)
-    return hydrodae.Case.from_text(text, directory=repository / "cases" / "sphere")
+    """Return the sphere of cases/sphere with further tables."""
+    one = body("sphere", motion, mass, [0.0, 0.0, -2.0], [inertia] * 3) | {"hydro": "sphere"}
+    joints = more.pop("joint", [])
+    tables = case([one], 1.0, hydro=WATER, joints=joints, **more)
+    return case_of(tables, repository / "cases" / "sphere")
 
 
-def flap(repository: Path, *, mass: float = 179250.0, more: str = "", **keys: str) -> hydrodae.Case:
-    """Flap 1 of F3OF, hinged to the ground."""
-    given = {
-        "motion": '"planar"',
-        "point": "[-12.5, 0.0, -9.0]",
-        "inertia": "[1.0e8, 1.3e6, 1.0e8]",
-        "angle": "0.0",
-    } | keys
-    hinge = HINGE.format(point=given["point"], angle=given["angle"])
-    text = FLAP.format(
-        motion=given["motion"], mass=mass, inertia=given["inertia"], more=hinge + more
-    )
-    return hydrodae.Case.from_text(text, directory=repository / "cases" / "f3of")
+def flap_alone(mass: float, inertia: Vector = (1.0e8, 1.3e6, 1.0e8), **more: Any) -> Table:
+    """Return the tables of flap 1 of F3OF, free in the plane."""
+    one = body("flap", "planar", mass, [-12.5, 0.0, -5.5], inertia) | {"hydro": "flap1"}
+    return case([one], 1.0, hydro=WATER, **more)
 
 
-def pole(*, depth: float, z: float = -2.0, more: str = "") -> hydrodae.Case:
-    """A slender leg without a database, its centre of gravity at `z` [m]."""
-    return hydrodae.Case.from_text(f"""
-[environment]
-water_density = 1025.0
-water_depth = {depth}
-[[body]]
-name = "pole"
-motion = "surge"
-mass = 10.0
-center_of_gravity = [0.0, 0.0, {z}]
-[[morison]]
-name = "leg"
-body = "pole"
-point_a = [0, 0, -4]
-point_b = [0, 0, 0]
-diameter = 0.2
-drag_coefficient = 1.0
-added_mass_coefficient = 1.0
-segments = 3
-{more}
-[solver]
-end_time = 1.0
-""")
+def flap(
+    repository: Path,
+    *,
+    mass: float = 179250.0,
+    point: Vector = (-12.5, 0.0, -9.0),
+    angle: float = 0.0,
+    joint_beside: Table | None = None,
+    **more: Any,
+) -> hydrodae.Case:
+    """Return the same, hinged to the ground."""
+    hinge = joint("hinge", "revolute", "ground", "flap", point, Y, initial={"angle_deg": angle})
+    joints = [hinge] if joint_beside is None else [hinge, joint_beside]
+    return case_of(flap_alone(mass, joints=joints, **more), repository / "cases" / "f3of")
+
+
+def pole(*, depth: float, z: float = -2.0, **more: Any) -> hydrodae.Case:
+    """Return a slender leg without a database, its centre of gravity at `z` [m]."""
+    leg = dict(name="leg", body="pole", point_a=[0, 0, -4], point_b=[0, 0, 0], diameter=0.2)
+    leg |= dict(drag_coefficient=1.0, added_mass_coefficient=1.0, segments=3)
+    water = {"water_density": 1025.0, "water_depth": depth}
+    tables = case([body("pole", "surge", 10.0, [0.0, 0.0, z])], 1.0, environment=water, **more)
+    return case_of(tables | {"morison": [leg]})
 
 
 def complaints(case: hydrodae.Case) -> list[str]:

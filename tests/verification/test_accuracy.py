@@ -8,10 +8,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests import scenes
 from tests.attack import suite
 from tests.attack.family import FAMILIES
-from tests.scenes import driven, run_for, slide, table
+from tests.attack.parts import X, Y, body, driven, joint, stop
+from tests.attack.parts import case as made
+from tests.verification.blocks import case_of
 
 import hydrodae
 from hydrodae.commands.cli import main
@@ -19,98 +20,60 @@ from hydrodae.study.stability import Method
 from hydrodae.study.stability.grid import PASS, run_cell
 
 SCENES = suite.all_scenes()
-PENDULUM = """
-title = "a pendulum of 1 m"
-[[body]]
-name = "bob"
-motion = "point"
-mass = 1.0
-center_of_gravity = [{x}, 0.0, {z}]
-[[joint]]
-name = "rod"
-type = "distance"
-body_a = "ground"
-body_b = "bob"
-point = [0.0, 0.0, 0.0]
-point_b = [{x}, 0.0, {z}]
-[output]
-step = 0.05
-"""
 
 
 def pendulum(angle: float, end: float, **solver: Any) -> hydrodae.Case:
     """Return the case of a pendulum released at an angle [rad]."""
-    text = PENDULUM.format(x=np.sin(angle), z=-np.cos(angle))
-    return hydrodae.Case(
-        text=text, values={f"solver.{k}": v for k, v in {"end_time": end, **solver}.items()}
+    at = [np.sin(angle), 0.0, -np.cos(angle)]
+    rod = joint("rod", "distance", "ground", "bob", point_b=at)
+    tables = made([body("bob", "point", 1.0, at)], end, joints=[rod], output={"step": 0.05})
+    return case_of(tables, **solver)
+
+
+def bouncing() -> hydrodae.Case:
+    """Return a pendulum that strikes the stops on both sides of its hinge."""
+    start = {"angle_rate": 3.0}
+    tables = made(
+        [body("bob", "planar", 1.0, [0.0, 0.0, -1.0], [0.1] * 3)],
+        40.0,
+        joints=[joint("hinge", "revolute", "ground", "bob", axis=Y, initial=start)],
+        constraints=[stop("buffer", "hinge", 1.0, lower_deg=-20.0, upper_deg=20.0)],
+        output={"step": 0.1},
     )
+    return case_of(tables)
 
 
-BOUNCING = (
-    scenes.pendulum("bob", mass=1.0, at=[0.0, 0.0, -1.0], inertia=[0.1, 0.1, 0.1], angle_rate=3.0)
-    + table("constraint", name="buffer", type="stop", joint="hinge")
-    + "lower_deg = -20.0\nupper_deg = 20.0\nrestitution = 1.0\n"
-    + run_for(40.0, 0.1)
-)
+def cable() -> hydrodae.Case:
+    """Return a dynamic line whose end a sine moves."""
+    end, drive = [8.0, 0.0, 0.0], {"amplitude": 1.0, "period": 1.5, "ramp": 3.0}
+    line = dict(type="line", name="cable", body_b="top", point_a=[0.0] * 3, point_b=end)
+    line |= dict(length=[10.0], segments=[6], mass=[1.0], stiffness=[1e4])
+    moves = driven("moves", drive, body="top", coordinate="surge")
+    tables = made([body("top", ["surge"], 10.0, end)], 3.0, constraints=[moves], forces=[line])
+    del tables["output"]
+    return case_of(tables)
 
 
-BAR = """
-[[body]]
-name = "bar"
-motion = "planar"
-mass = 1.0
-center_of_gravity = [{x}, 0.0, {z}]
-inertia = [0.0833333333333, 0.0833333333333, 0.0833333333333]
-[[joint]]
-name = "hinge"
-type = "revolute"
-body_a = "ground"
-body_b = "bar"
-point = [0.0, 0.0, 0.0]
-axis = [0.0, 1.0, 0.0]
-[output]
-step = 0.05
-"""
+def double_well() -> hydrodae.Case:
+    """Return a mass in a double well, driven into chaos."""
+    mass = body("mass", "surge", 1.0, displacement=[1.0, 0.0, 0.0])
+    wrench = dict(name="well", type="python_wrench", body="mass")
+    return case_of(made([mass], 80.0, gravity=0.0, forces=[wrench], output={"step": 0.1}))
 
 
-CABLE = (
-    driven("top", "surge", 10.0, [8.0, 0.0, 0.0], amplitude=1.0, period=1.5, ramp=3.0)
-    + """
-[[force]]
-type = "line"
-name = "cable"
-body_b = "top"
-point_a = [0.0, 0.0, 0.0]
-point_b = [8.0, 0.0, 0.0]
-length = [10.0]
-segments = [6]
-mass = [1.0]
-stiffness = [1e4]
-[solver]
-end_time = 20.0
-"""
-)
-
-
-DUFFING = """
-title = "a double well, driven into chaos"
-[environment]
-gravity = 0.0
-[[body]]
-name = "mass"
-motion = "surge"
-mass = 1.0
-center_of_gravity = [0.0, 0.0, 0.0]
-initial.displacement = [1.0, 0.0, 0.0]
-[[force]]
-name = "well"
-type = "python_wrench"
-body = "mass"
-[solver]
-end_time = 80.0
-[output]
-step = 0.1
-"""
+def sampled_brake() -> hydrodae.Case:
+    """Return a mass on a spring that a sampled law brakes."""
+    rate = ["joints/rail/displacement_rate"]
+    law = dict(name="brake", type="python", inputs=rate, outputs=["forces/motor/load"], period=0.1)
+    tables = made(
+        [body("cart", "surge", 1.0, velocity=[1.0, 0.0, 0.0])],
+        10.0,
+        joints=[joint("rail", "prismatic", "ground", "cart", axis=X)],
+        forces=[dict(name="motor", type="pto_linear", joint="rail", stiffness=4.0)],
+        controller=[law],
+        output={"step": 0.1},
+    )
+    return case_of(tables)
 
 
 def ratio_of(case: hydrodae.Case, channel: str, **solver: Any) -> float:
@@ -166,7 +129,7 @@ def test_the_estimate_of_fixed_steps_is_right_to_a_factor(
 @pytest.mark.parametrize("method", ["ida", "radau", "explicit_rk"])
 def test_the_estimate_holds_through_many_impacts(method: str) -> None:
     """An error of the speed puts what bounces off by the same part of its way."""
-    case = hydrodae.Case(text=BOUNCING)
+    case = bouncing()
     assert 0.05 < ratio_of(case, "bodies/bob/position", method=method, rtol=1e-6) < 20.0
 
 
@@ -192,8 +155,8 @@ def test_growth_at_the_kinks_of_forces_is_seen(
 
 
 def test_the_estimate_sees_lines() -> None:
-    case = hydrodae.Case(text=CABLE)
-    settings = {"solver.end_time": 3.0, "solver.rtol": 1e-3}
+    case = cable()
+    settings = {"solver.rtol": 1e-3}
     results = hydrodae.run(case, set=settings)
     exact = hydrodae.run(case, set=settings | {"solver.rtol": 1e-8})
     places, truth = (r["forces/cable/position"].values for r in (results, exact))
@@ -210,7 +173,7 @@ def duffing(_t: float, x: Any, _v: Any) -> list[float]:
 
 @pytest.mark.parametrize("method", ["auto", "radau"])
 def test_a_chaotic_motion_completes_and_says_until_when_it_is_reproducible(method: str) -> None:
-    case = hydrodae.Case.from_text(DUFFING)
+    case = double_well()
     forced = {"solver.method": method, "solver.rtol": 1e-4, "solver.end_time": 200.0}
     results = hydrodae.run(case, set=forced, forces={"well": duffing})
     exact = hydrodae.run(case, set={**forced, "solver.rtol": 1e-10}, forces={"well": duffing})
@@ -235,7 +198,7 @@ def test_a_second_run_with_another_method() -> None:
 
 def test_controllers_with_memory_are_repeated_from_their_records() -> None:
     """A list that the controller fills is filled once."""
-    case = hydrodae.Case.from_text(CONTROLLED)
+    case = sampled_brake()
     asked: list[float] = []
 
     def remember(t: float, rate: float) -> float:
@@ -249,15 +212,6 @@ def test_controllers_with_memory_are_repeated_from_their_records() -> None:
     assert "recorded" not in str(plain.statistics["accuracy"])
     for name in ("estimated_error", "estimated_until"):
         assert results.statistics[name] < 1e-3 if name == "estimated_error" else True
-
-
-CONTROLLED = (
-    slide(joint="rail", mass=1.0, gravity=None, velocity=[1.0, 0.0, 0.0])
-    + table("force", name="motor", type="pto_linear", joint="rail", stiffness=4.0)
-    + table("controller", name="brake", type="python", inputs=["joints/rail/displacement_rate"])
-    + 'outputs = ["forces/motor/load"]\nperiod = 0.1\n'
-    + run_for(10.0, 0.1)
-)
 
 
 def test_without_an_estimate_the_reason_is_printed() -> None:
@@ -288,7 +242,7 @@ def test_both_commands_verify_and_are_strict(
     executable: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     case = tmp_path / "pendulum.toml"
-    case.write_text(pendulum(3.1, 5.0).scene.text + "\n[solver]\nend_time = 60.0\n")
+    case.write_text(pendulum(3.1, 60.0).text)
     loose = ["--set", "solver.rtol=1e-3", "--strict"]
     assert main(["run", str(case), "--verify", "radau", "-o", str(tmp_path / "a.h5")]) == 0
     assert "by a second run with radau" in capsys.readouterr().out

@@ -5,10 +5,13 @@ from __future__ import annotations
 import json
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from tests.attack.parts import Table, Z, body, case, joint
+from tests.verification.blocks import case_of, run_tables
 
 import hydrodae
 from hydrodae import hdb
@@ -17,73 +20,37 @@ from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.pictures.panels import overview
 
 G = 9.81
-METHODS = {
-    "auto": "",
-    "ida": 'method = "ida"',
-    "radau": 'method = "radau"',
-    "explicit_rk": 'method = "explicit_rk"',
-    "generalized_alpha": 'method = "generalized_alpha"\nstep = 0.05',
-    "gauss": 'method = "gauss"\nstep = 0.05',
-    "lobatto_iiic": 'method = "lobatto_iiic"\nstep = 0.05',
-}
+FIXED_STEPS = {"step": 0.05}
+METHODS: dict[str, Any] = {name: {} for name in ("auto", "ida", "radau", "explicit_rk")}
+METHODS |= dict.fromkeys(("generalized_alpha", "gauss", "lobatto_iiic"), FIXED_STEPS)
 #: Of a cylinder that floats upright, without its mass [m].
 RADIUS, DRAFT, CENTER, RHO, OMEGA, HEIGHT = 2.0, 3.0, -1.0, 1000.0, 1.2, 0.8
 DISPLACED = RHO * np.pi * RADIUS**2 * DRAFT  # kg
-BUOY = f"""
-hydro = {{ database = "hydro.h5", radiation = "none" }}
-[sea]
-ramp = 5.0
-[[body]]
-name = "buoy"
-hydro = "buoy"
-motion = "fixed"
-mass = {0.6 * DISPLACED}
-center_of_gravity = [0.0, 0.0, {CENTER}]
-inertia = [1e5, 1e5, 1e5]
-"""
-SWELL = f"""
-[[wave]]
-name = "swell"
-type = "regular"
-height = {HEIGHT}
-period = {2.0 * np.pi / OMEGA!r}
-"""
-WELD = """
-[[joint]]
-name = "weld"
-type = "fixed"
-body_a = "ground"
-body_b = "buoy"
-point = [0.0, 0.0, 2.0]
-axis = [0.0, 0.0, 1.0]
-"""
-SOLVER = "[solver]\nend_time = 1.0\n"
+SWELL = dict(name="swell", type="regular", height=HEIGHT, period=2.0 * np.pi / OMEGA)
 DEPTH, DIAMETER, WAVE, PERIOD = 20.0, 3.0, 1.0, 7.0
-PILE = f"""
-[environment]
-water_density = {RHO}
-water_depth = {DEPTH}
-[[body]]
-name = "pile"
-motion = "fixed"
-mass = 1e5
-center_of_gravity = [0.0, 0.0, -10.0]
-[[morison]]
-name = "water"
-body = "pile"
-point_a = [0.0, 0.0, {-DEPTH}]
-point_b = [0.0, 0.0, 5.0]
-diameter = {DIAMETER}
-segments = 400
-added_mass_coefficient = 1.0
-[[wave]]
-name = "swell"
-type = "regular"
-height = {2.0 * WAVE}
-period = {PERIOD}
-[solver]
-end_time = 14.0
-"""
+
+
+def buoy(motion: str, end: float = 1.0) -> Table:
+    """Return the cylinder of 0.6 of the mass that it displaces, fixed or, if rigid, welded."""
+    held = body("buoy", motion, 0.6 * DISPLACED, [0.0, 0.0, CENTER], [1e5] * 3) | {"hydro": "buoy"}
+    weld = joint("weld", "fixed", "ground", "buoy", [0.0, 0.0, 2.0], Z)
+    tables = case([held], end, joints=[weld] if motion == "rigid" else [])
+    water = {"database": "hydro.h5", "radiation": "none"}
+    del tables["output"]
+    return tables | {"hydro": water, "sea": {"ramp": 5.0}, "wave": [SWELL]}
+
+
+def pile(*others: Table) -> Table:
+    """Return a fixed pile in a wave."""
+    ends = dict(point_a=[0.0, 0.0, -DEPTH], point_b=[0.0, 0.0, 5.0])
+    member = dict(name="water", body="pile", diameter=DIAMETER, segments=400, **ends)
+    tables = case([body("pile", "fixed", 1e5, [0.0, 0.0, -10.0]), *others], 14.0)
+    del tables["output"]
+    return tables | {
+        "environment": {"water_density": RHO, "water_depth": DEPTH},
+        "morison": [member | {"added_mass_coefficient": 1.0}],
+        "wave": [dict(name="swell", type="regular", height=2.0 * WAVE, period=PERIOD)],
+    }
 
 
 @pytest.fixture
@@ -109,8 +76,8 @@ def of_wave(time: NDArray[np.float64], database: hdb.HydroDatabase) -> NDArray[n
 def test_fixed_body_in_a_wave_reports_what_holds_it(
     method: str, tmp_path: Path, water: hdb.HydroDatabase
 ) -> None:
-    case = BUOY + SWELL + f"[solver]\nend_time = 20.0\n{METHODS[method]}\n"
-    results = hydrodae.run(hydrodae.Case.from_text(case, tmp_path), tmp_path / "run.h5")
+    tables = buoy("fixed", 20.0)
+    results = run_tables(tables, tmp_path, method=method, **METHODS[method])
     assert results.status == "completed"
     late = results.time > 5.0
     exact = of_wave(results.time, water)
@@ -134,9 +101,7 @@ def test_welded_body_in_a_wave_reports_its_reaction(
     method: str, tmp_path: Path, water: hdb.HydroDatabase
 ) -> None:
     """The same loads, about the weld 3 m above the centre of gravity."""
-    case = (BUOY + WELD + SWELL).replace('"fixed"\nmass', '"rigid"\nmass')
-    case += f"[solver]\nend_time = 20.0\n{METHODS[method]}\n"
-    results = hydrodae.run(hydrodae.Case.from_text(case, tmp_path), tmp_path / "run.h5")
+    results = run_tables(buoy("rigid", 20.0), tmp_path, method=method)
     late = results.time > 5.0
     exact = of_wave(results.time, water)
     force = results["joints/weld/reaction_force"].values
@@ -159,9 +124,8 @@ def test_welded_body_in_a_wave_reports_its_reaction(
 def test_equilibrium_of_what_cannot_move_gives_its_reactions(
     motion: str, tmp_path: Path, water: hdb.HydroDatabase, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    text = BUOY + (WELD if motion == "rigid" else "")
     path = tmp_path / "case.toml"
-    path.write_text(text.replace('"fixed"\nmass', f'"{motion}"\nmass') + SWELL + SOLVER)
+    path.write_text(case_of(buoy(motion), tmp_path).text)
     found = hydrodae.equilibrium(path)
     held = -0.4 * DISPLACED * G
     if motion == "fixed":
@@ -184,28 +148,19 @@ def test_equilibrium_of_what_cannot_move_gives_its_reactions(
 
 def test_an_eccentric_fixed_body_is_held_against_its_moment() -> None:
     """Its centre of buoyancy lies 0.5 m ahead of the centre of gravity."""
-    case = hydrodae.Case.from_text(f"""
-[environment]
-water_density = {RHO}
-[[body]]
-name = "block"
-motion = "fixed"
-mass = 100.0
-center_of_gravity = [1.0, 2.0, -3.0]
-volume = 0.3
-center_of_buoyancy = [1.5, 2.0, -3.0]
-{SOLVER}""")
-    held = hydrodae.equilibrium(case).supports
+    block = body("block", "fixed", 100.0, [1.0, 2.0, -3.0])
+    block |= {"volume": 0.3, "center_of_buoyancy": [1.5, 2.0, -3.0]}
+    tables = case([block], 1.0, environment={"water_density": RHO})
+    held = hydrodae.equilibrium(case_of(tables)).supports
     lift = RHO * G * 0.3
     assert held["bodies/block/support_force.z"] == pytest.approx(100.0 * G - lift)
     assert held["bodies/block/support_moment.y"] == pytest.approx(0.5 * lift)  # bow up is < 0
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_monopile_alone_reports_the_load_of_the_wave(method: str, tmp_path: Path) -> None:
+def test_monopile_alone_reports_the_load_of_the_wave(method: str) -> None:
     """Inertia of a pile in Airy waves: rho 2 A g a tanh(kh), at most, across it (Morison)."""
-    case = hydrodae.Case.from_text(PILE + METHODS[method], tmp_path)
-    results = hydrodae.run(case, tmp_path / "run.h5")
+    results = run_tables(pile(), method=method, **METHODS[method])
     area = np.pi / 4.0 * DIAMETER**2
     omega = 2.0 * np.pi / PERIOD
     k = float(wavenumber(omega, DEPTH, G))
@@ -226,10 +181,9 @@ def test_monopile_alone_reports_the_load_of_the_wave(method: str, tmp_path: Path
     assert "support moment" in titles
 
 
-def test_states_and_checkpoints_of_what_cannot_move(tmp_path: Path) -> None:
-    """A run in two parts equals one."""
-    case = hydrodae.Case.from_text(PILE, tmp_path)
-    simulation = hydrodae.Simulation(case)
+def test_states_of_what_cannot_move() -> None:
+    """A step that is taken back leaves the loads as they were."""
+    simulation = hydrodae.Simulation(case_of(pile()))
     while simulation.time < 5.0:
         simulation.advance()
     state = simulation.state()
@@ -239,11 +193,9 @@ def test_states_and_checkpoints_of_what_cannot_move(tmp_path: Path) -> None:
     np.testing.assert_array_equal(np.asarray(simulation.read("bodies/pile/support_force")), load)
 
 
-def test_what_moves_beside_a_fixed_body_leaves_its_loads_in_the_summary(tmp_path: Path) -> None:
-    more = '[[body]]\nname = "other"\nmotion = "surge"\nmass = 1.0\n'
-    more += "center_of_gravity = [0.0, 50.0, 0.0]\ninitial.velocity = [0.1, 0.0, 0.0]\n"
-    case = hydrodae.Case.from_text(PILE.replace("[solver]", more + "[solver]"), tmp_path)
-    text = hydrodae.run(case, tmp_path / "run.h5").summary()
+def test_what_moves_beside_a_fixed_body_leaves_its_loads_in_the_summary() -> None:
+    other = body("other", "surge", 1.0, [0.0, 50.0, 0.0], velocity=[0.1, 0.0, 0.0])
+    text = run_tables(pile(other)).summary()
     assert "at rest" not in text
     assert "bodies/pile/support_force.x" in text
     assert "bodies/other/support" not in text  # weight alone

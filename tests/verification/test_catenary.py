@@ -5,10 +5,13 @@ from __future__ import annotations
 import json
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from tests.attack.parts import ORIGIN, Table, Vector, body, case
 from tests.errors import wrong
+from tests.verification.blocks import case_of, run_tables
 
 import hydrodae
 from hydrodae.errors import CaseError
@@ -73,66 +76,41 @@ def test_bad_lines_are_refused() -> None:
         hydrodae.catenary(1.0, -1.0, 1.0, 1.0, 1.0)
 
 
-LINE = """
-[[force]]
-type = "catenary"
-name = "{name}"
-body_b = "buoy"
-point_a = [{x}, {y}, -50.0]
-point_b = [{fx}, {fy}, 0.0]
-length = [400.0]
-weight = [1200.0]
-stiffness = [5e7]
-"""
+def line_to(name: str, x: float, y: float) -> Table:
+    line: Table = dict(
+        type="catenary", name=name, body_b="buoy", point_a=[x, y, -50.0], point_b=[0.0] * 3
+    )
+    return line | dict(length=[400.0], weight=[1200.0], stiffness=[5e7])
 
 
-def moored(radius: float = 385.0, *, extra: str = "") -> str:
+def moored(start: Vector = ORIGIN, end: float = 1.0, **line: Any) -> Table:
     """A point mass on three lines, its weight borne by a constant load."""
-    text = """
-[[body]]
-name = "buoy"
-motion = ["surge", "sway", "heave"]
-mass = 2e5
-center_of_gravity = [0.0, 0.0, 0.0]
-INITIAL
-[[force]]
-type = "constant_load"
-name = "lift"
-body = "buoy"
-force = [0.0, 0.0, LIFT]
-[[force]]
-type = "mooring_matrix"
-name = "water"
-body = "buoy"
-stiffness = [0.0, 0.0, 5e5, 0.0, 0.0, 0.0]
-damping = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
-"""
+    lift = 2e5 * 9.81 + 3.0 * chain(385.0, 50.0).vertical
+    water = dict(type="mooring_matrix", name="water", body="buoy", stiffness=[0, 0, 5e5, 0, 0, 0])
+    forces = [dict(type="constant_load", name="lift", body="buoy", force=[0, 0, lift]), water]
     for k in range(3):
         angle = 2.0 * math.pi * k / 3.0
-        c, s = math.cos(angle), math.sin(angle)
-        text += LINE.format(name=f"line{k}", x=radius * c, y=radius * s, fx=0.0, fy=0.0)
-    held = chain(radius, 50.0)
-    lift = 2e5 * 9.81 + 3.0 * held.vertical
-    return text.replace("LIFT", repr(lift)) + extra
+        forces.append(line_to(f"line{k}", 385.0 * math.cos(angle), 385.0 * math.sin(angle)) | line)
+    buoy = body("buoy", ["surge", "sway", "heave"], 2e5, displacement=start)
+    return case([buoy], end, forces=forces, output={"step": 0.1})
 
 
 def test_three_lines_hold_a_buoy_with_the_stiffness_of_the_closed_form() -> None:
     """K_x = 3/2 (k + H / X), K_z = 3 k_zz + hydrostatics: the linear model's frequencies."""
-    case = hydrodae.Case.from_text(moored().replace("INITIAL", "") + "[solver]\nend_time = 1.0\n")
+    model = LinearModel(case_of(moored()))
     line = chain(385.0, 50.0)
     horizontal = 1.5 * (line.stiffness[0, 0] + line.out_of_plane)
     vertical = 3.0 * line.stiffness[1, 1] + 5e5
     expected = sorted([math.sqrt(horizontal / 2e5), math.sqrt(vertical / 2e5)])
-    found = sorted(2.0 * math.pi / mode.period for mode in LinearModel(case).modes())
+    found = sorted(2.0 * math.pi / mode.period for mode in model.modes())
     assert found == pytest.approx([expected[0], expected[0], expected[1]], rel=1e-7)
 
 
 @pytest.mark.parametrize("method", ["ida", "radau", "explicit_rk"])
 def test_a_moored_buoy_keeps_its_energy(method: str) -> None:
     """From taut to slack and back, without damping."""
-    text = moored().replace("INITIAL", "initial = { displacement = [8.0, 2.0, 0.0] }")
-    text += f'[solver]\nend_time = 60.0\nmethod = "{method}"\nrtol = 1e-8\n[output]\nstep = 0.1\n'
-    run = hydrodae.run(hydrodae.Case.from_text(text))
+    tables = moored([8.0, 2.0, 0.0], 60.0)
+    run = run_tables(tables, method=method, rtol=1e-8)
     total, kinetic = run["energy/total"].values, run["energy/kinetic"].values
     assert np.ptp(total) < 2e-6 * kinetic.max()
     tension = run["forces/line0/tension"].values
@@ -148,45 +126,20 @@ def test_a_moored_buoy_keeps_its_energy(method: str) -> None:
 
 def test_pretension_gives_the_length() -> None:
     line = chain(385.0, 50.0)
-    text = moored().replace("INITIAL", "").replace("length = [400.0]", "length = [430.0]")
-    text = text.replace("stiffness = [5e7]", f"stiffness = [5e7]\npretension = {line.tension!r}")
-    simulation = hydrodae.Simulation(hydrodae.Case.from_text(text + "[solver]\nend_time = 1.0\n"))
+    tables = moored(length=[430.0], pretension=line.tension)
+    simulation = hydrodae.Simulation(case_of(tables))
     assert simulation.read("forces/line1/tension") == pytest.approx(line.tension, rel=1e-9)
 
 
 def test_a_line_between_two_bodies_pulls_on_both() -> None:
     """A light line between two masses in the plane: total momentum changes by its weight alone."""
-    text = """
-[[body]]
-name = "a"
-motion = ["surge", "heave"]
-mass = 100.0
-center_of_gravity = [0.0, 0.0, 0.0]
-[[body]]
-name = "b"
-motion = ["surge", "heave"]
-mass = 50.0
-center_of_gravity = [9.0, 0.0, 1.0]
-[[force]]
-type = "catenary"
-name = "line"
-body_a = "a"
-body_b = "b"
-point_a = [0.0, 0.0, 0.0]
-point_b = [9.0, 0.0, 1.0]
-length = [6.0, 6.0]
-weight = [3.0, 5.0]
-stiffness = [2e4, 2e4]
-loads = [10.0]
-seabed = false
-[environment]
-gravity = 0.0
-[solver]
-end_time = 2.0
-method = "radau"
-rtol = 1e-9
-"""
-    run = hydrodae.run(hydrodae.Case.from_text(text))
+    end = [9.0, 0.0, 1.0]
+    line: Table = dict(type="catenary", name="line", body_a="a", body_b="b", point_a=[0.0] * 3)
+    line |= dict(point_b=end, length=[6.0, 6.0], weight=[3.0, 5.0], stiffness=[2e4, 2e4])
+    line |= dict(loads=[10.0], seabed=False)
+    plane = ["surge", "heave"]
+    bodies = [body("a", plane, 100.0), body("b", plane, 50.0, end)]
+    run = run_tables(case(bodies, 2.0, gravity=0.0, forces=[line]), method="radau", rtol=1e-9)
     v_a, v_b = run["bodies/a/velocity"].values, run["bodies/b/velocity"].values
     momentum = 100.0 * v_a + 50.0 * v_b
     assert momentum[:, 0] == pytest.approx(0.0 * run.time, abs=1e-8)
@@ -195,8 +148,7 @@ rtol = 1e-9
 
 
 def test_a_seabed_needs_an_anchor_on_the_ground() -> None:
-    text = (
-        moored().replace("INITIAL", "").replace('name = "line1"', 'name = "line1"\nbody_a = "buoy"')
-    )
+    tables = moored()
+    tables["force"][3]["body_a"] = "buoy"
     with wrong("force.line1.seabed"):
-        hydrodae.run(hydrodae.Case.from_text(text + "[solver]\nend_time = 1.0\n"))
+        run_tables(tables)

@@ -15,8 +15,9 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 from scipy.linalg import expm
+from tests.attack.parts import body, case
+from tests.verification.blocks import run_tables
 
-import hydrodae
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase, kernels
 from hydrodae.hdb.database.radiation_kernel import LIMIT, make_kernel
@@ -105,27 +106,11 @@ def test_fine_tables_make_right_kernels_whatever_their_steps(grid: str, tmp_path
     assert error < 4e-3
     assert error < 1.5 * said
     db.with_kernel(band=BAND).write(tmp_path / "hydro.h5")
-    (tmp_path / "case.toml").write_text(
-        f"""
-[hydro]
-database = "hydro.h5"
-radiation = "convolution"
-[solver]
-end_time = 20.0
-rtol = 1e-6
-[output]
-step = 0.1
-[[body]]
-name = "buoy"
-hydro = "buoy"
-mass = {MASS}
-center_of_gravity = [0.0, 0.0, -1.3]
-inertia = [1.0e6, 1.0e6, 1.0e6]
-motion = "heave"
-initial.displacement = [0.0, 0.0, {START}]
-"""
-    )
-    run = hydrodae.run(tmp_path / "case.toml")
+    start = [0.0, 0.0, START]
+    buoy = body("buoy", "heave", MASS, [0.0, 0.0, -1.3], [1e6] * 3, displacement=start)
+    water = {"database": "hydro.h5", "radiation": "convolution"}
+    tables = case([buoy | {"hydro": "buoy"}], 20.0, hydro=water)
+    run = run_tables(tables, tmp_path, rtol=1e-6)
     heave = run["bodies/buoy/position"].sel(component="z")
     exact = decay(heave["time"].values)
     assert np.abs(heave.values + 1.3 - exact).max() < 4e-3 * START

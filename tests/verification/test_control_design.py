@@ -5,11 +5,14 @@ One body in heave, from the tables themselves: Z = B + i (w (m + A) - C / w).
 
 from __future__ import annotations
 
+import tomllib
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
+from tests.attack.parts import Table, body, joint
+from tests.verification.blocks import case_of
 
 import hydrodae
 from hydrodae.commands.cli import main
@@ -17,44 +20,14 @@ from hydrodae.control import Plant, match
 from hydrodae.errors import CaseError
 
 MASS = 261.8e3  # kg, of cases/sphere
-PTO = '[[force]]\nname = "pto"\ntype = "pto_general"\njoint = "guide"\n'
-TAKE_OFFS = {
-    "none of its own": PTO,
-    "linear": """
-[[force]]
-name = "pto"
-type = "pto_linear"
-joint = "guide"
-damping = 2.32e5
-stiffness = 4.0e4
-""",
-    "late": """
-[[force]]
-name = "pto"
-type = "pto_linear"
-joint = "guide"
-damping = 2.32e5
-stiffness = 4.0e4
-delay = 0.1
-""",
-    "with a lag": """
-[[force]]
-name = "pto"
-type = "pto_lagged"
-joint = "guide"
-damping = 2.32e5
-stiffness = 4.0e4
-lag = 0.2
-load_limit = 1.0e6
-""",
-    "two of them": PTO
-    + """
-[[force]]
-name = "brake"
-type = "pto_linear"
-joint = "guide"
-damping = 1.0e5
-""",
+PTO = dict(name="pto", type="pto_general", joint="guide")
+LINEAR = dict(name="pto", type="pto_linear", joint="guide", damping=2.32e5, stiffness=4.0e4)
+TAKE_OFFS: dict[str, list[Table]] = {
+    "none of its own": [PTO],
+    "linear": [LINEAR],
+    "late": [LINEAR | {"delay": 0.1}],
+    "with a lag": [LINEAR | {"type": "pto_lagged", "lag": 0.2, "load_limit": 1.0e6}],
+    "two of them": [PTO, dict(name="brake", type="pto_linear", joint="guide", damping=1.0e5)],
 }
 
 
@@ -69,12 +42,14 @@ def own_impedance(repository: Path, omega: float) -> complex:
     return complex(b + 1j * (omega * (MASS + a) - c / omega))
 
 
-def case_with(repository: Path, force: str) -> hydrodae.Case:
+def case_with(repository: Path, forces: list[Table], **more: list[Table]) -> hydrodae.Case:
+    """Return the controlled sphere without its controller, with these forces and entries more."""
     folder = repository / "cases" / "sphere"
-    text = (folder / "control.toml").read_text()
-    start, end = text.index("[[controller]]"), text.index("[solver]")
-    assert PTO in text
-    return hydrodae.Case.from_text((text[:start] + text[end:]).replace(PTO, force), folder)
+    tables = tomllib.loads((folder / "control.toml").read_text())
+    assert tables["force"] == [PTO]
+    del tables["controller"]
+    tables |= {key: [*tables.get(key, []), *entries] for key, entries in more.items()}
+    return case_of(tables | {"force": forces}, folder)
 
 
 @pytest.mark.parametrize("kind", TAKE_OFFS)
@@ -94,18 +69,9 @@ def test_other_loads_count_and_are_listed(
     repository: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Friction along the joint belongs to the device."""
-    extra = """
-[[force]]
-name = "seal"
-type = "friction_stribeck"
-joint = "guide"
-static = 1.0e-3
-kinetic = 1.0e-3
-creep_rate = 0.1
-stribeck_rate = 1.0
-viscous = 2.0e4
-"""
-    case = case_with(repository, TAKE_OFFS["linear"] + extra)
+    seal = dict(name="seal", type="friction_stribeck", joint="guide", static=1.0e-3)
+    seal |= dict(kinetic=1.0e-3, creep_rate=0.1, stribeck_rate=1.0, viscous=2.0e4)
+    case = case_with(repository, [LINEAR, seal])
     found = match(Plant(case, "guide"), 2.0 * np.pi / 1.2)
     assert found.impedance.real == pytest.approx(
         own_impedance(repository, 1.2).real + 2e4, rel=1e-4
@@ -117,45 +83,17 @@ viscous = 2.0e4
     assert "left out     pto (pto_general)" in told
 
 
-GEARED = """
-[[body]]
-name = "shaft"
-mass = 0.0
-center_of_gravity = [0.0, 0.0, 0.0]
-inertia = [2.0, 2.0, 2.0]
-[[joint]]
-name = "shaft"
-type = "revolute"
-body_a = "ground"
-body_b = "shaft"
-point = [0.0, 0.0, 0.0]
-axis = [1.0, 0.0, 0.0]
-[[constraint]]
-name = "gear"
-type = "coupler"
-joint = "guide"
-joint_b = "shaft"
-ratio = 100.0
-[[force]]
-name = "generator"
-type = "pto_lagged"
-joint = "shaft"
-damping = 38.0
-stiffness = -15.0
-lag = 0.01
-load_limit = 1.0e5
-[[force]]
-name = "gear_friction"
-type = "pto_linear"
-joint = "shaft"
-damping = 1.5
-"""
-
-
 def test_a_take_off_behind_a_gear_is_no_part_of_the_device(repository: Path) -> None:
     """Its inertia is; `keep` counts its friction: 100^2 times 2 kg m2 and 1.5 N m s."""
     omega = 1.2
-    case = case_with(repository, PTO + GEARED)
+    shaft = body("shaft", "rigid", 0.0, inertia=[2.0] * 3)
+    bearing = joint("shaft", "revolute", "ground", "shaft", axis=[1.0, 0.0, 0.0])
+    gear = dict(name="gear", type="coupler", joint="guide", joint_b="shaft", ratio=100.0)
+    generator = dict(name="generator", type="pto_lagged", joint="shaft", damping=38.0)
+    generator |= dict(stiffness=-15.0, lag=0.01, load_limit=1.0e5)
+    rubs = dict(name="gear_friction", type="pto_linear", joint="shaft", damping=1.5)
+    more = dict(body=[shaft], joint=[bearing], constraint=[gear])
+    case = case_with(repository, [PTO, generator, rubs], **more)
     z = own_impedance(repository, omega) + 1j * omega * 2e4
     found = match(Plant(case, "guide"), 2.0 * np.pi / omega)
     assert abs(found.impedance - z) < 1e-4 * abs(z)

@@ -4,60 +4,29 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests import scenes
+from tests.attack.parts import Table, body, case, driven
+from tests.verification.blocks import METHODS, block, block_case, case_of, run_tables
 
 import hydrodae
 from hydrodae.errors import CaseError
 from hydrodae.linear import LinearModel
 
-METHODS = ["ida", "radau", "explicit_rk"]
+LUGRE = dict(
+    type="friction_lugre",
+    name="rail",
+    joint="slide",
+    static=12.0,
+    kinetic=8.0,
+    stribeck_rate=0.01,
+    bristle_stiffness=1e5,
+    bristle_damping=632.4555320336759,
+    viscous=3.0,
+)
+OWN = dict(type="python_load", name="own", joint="slide")
 
 
-HYDRAULIC = """
-[[force]]
-type = "pto_hydraulic"
-name = "pto"
-joint = "slide"
-area = 1e-3
-motor_conductance = 1e-10
-pressure_high = 2e6
-pressure_low = 5e5
-volume_high = 1e-3
-volume_low = 2e-3
-polytropic = POLYTROPIC
-valve_rate = 0.02
-"""
-
-PUSH = """
-[[constraint]]
-name = "crank"
-type = "coordinate"
-joint = "slide"
-drive = { DRIVE }
-"""
-
-LUGRE = """
-[[force]]
-type = "friction_lugre"
-name = "rail"
-joint = "slide"
-static = 12.0
-kinetic = 8.0
-stribeck_rate = 0.01
-bristle_stiffness = 1e5
-bristle_damping = 632.4555320336759
-viscous = 3.0
-"""
-
-
-def slide(
-    forces: str, end: float, *, start: float = 0.0, solver: str = "", step: float = 0.01
-) -> str:
-    return (
-        scenes.slide("block", displacement=[start, 0.0, 0.0])
-        + forces
-        + f"[solver]\nend_time = {end}\n{solver}\n[output]\nstep = {step}\n"
-    )
+def crank(**drive: float) -> list[Table]:
+    return [driven("crank", drive, joint="slide")]
 
 
 def integral(values: np.ndarray, time: np.ndarray) -> float:
@@ -70,14 +39,12 @@ def test_hydraulic_power_is_what_the_motor_takes_and_the_gas_stores(
     method: str, polytropic: float
 ) -> None:
     """A driven piston: absorbed = motor + stored, where the gas stores int p dV."""
-    case = slide(
-        HYDRAULIC.replace("POLYTROPIC", str(polytropic))
-        + PUSH.replace("DRIVE", "amplitude = 0.3, period = 2.0"),
-        6.0,
-        solver=f'method = "{method}"\nrtol = 1e-8',
-        step=0.001,
-    )
-    results = hydrodae.run(hydrodae.Case.from_text(case))
+    machine: Table = dict(type="pto_hydraulic", name="pto", joint="slide", valve_rate=0.02)
+    machine |= dict(area=1e-3, motor_conductance=1e-10, polytropic=polytropic)
+    machine |= dict(pressure_high=2e6, pressure_low=5e5, volume_high=1e-3, volume_low=2e-3)
+    moves = crank(amplitude=0.3, period=2.0)
+    speed = 0.3 * np.pi  # of the drive at t = 0
+    results = block(machine, 6.0, method=method, step=0.001, speed=speed, constraint=moves)
     pto = {
         name: results[f"forces/pto/{name}"].values
         for name in ("force", "power_absorbed", "pressure_high", "pressure_low", "motor_power")
@@ -105,13 +72,9 @@ def test_hydraulic_power_is_what_the_motor_takes_and_the_gas_stores(
 def test_bristles_slide_by_the_stribeck_curve(method: str) -> None:
     """At a steady rate the load is g(v) + sigma_2 v."""
     for rate in (0.003, 0.02, 0.2):
-        case = slide(
-            LUGRE + PUSH.replace("DRIVE", f"rate = {rate}"),
-            1.0,
-            solver=f'method = "{method}"',
-            step=0.1,
-        ).replace("initial = {", f"initial = {{ velocity = [{rate}, 0.0, 0.0],")
-        force = hydrodae.run(hydrodae.Case.from_text(case))["forces/rail/force"].values
+        moves = crank(rate=rate)
+        run = block(LUGRE, 1.0, method=method, rtol=1e-6, step=0.1, speed=rate, constraint=moves)
+        force = run["forces/rail/force"].values
         curve = 8.0 + 4.0 * np.exp(-((rate / 0.01) ** 2)) + 3.0 * rate
         assert force[-1] == pytest.approx(-curve, rel=1e-5)
 
@@ -119,45 +82,16 @@ def test_bristles_slide_by_the_stribeck_curve(method: str) -> None:
 @pytest.mark.parametrize("method", METHODS)
 def test_bristles_stick_below_the_static_load(method: str) -> None:
     """Pushed by 6 N the bristles bend by F / sigma_0 and hold; by 14 N the block slips."""
-    push = (
-        '[[force]]\ntype = "constant_load"\nname = "push"\nbody = "block"\nforce = [{}, 0.0, 0.0]\n'
-    )
-    case = slide(LUGRE + push.format(6.0), 5.0, solver=f'method = "{method}"')
-    results = hydrodae.run(hydrodae.Case.from_text(case))
+    push = dict(type="constant_load", name="push", body="block", force=[6.0, 0.0, 0.0])
+    results = block([LUGRE, push], 5.0, method=method, rtol=1e-6)
     place = results["joints/slide/displacement"].values
     assert results["forces/rail/deflection"].values[-1] == pytest.approx(6.0 / 1e5, rel=1e-4)
     assert place[-1] < 2.0 * 6.0 / 1e5  # it crept while it came to rest
     assert abs(place[-1] - place[-300]) < 1e-7
-    case = slide(LUGRE + push.format(14.0), 5.0, solver=f'method = "{method}"')
-    slipped = hydrodae.run(hydrodae.Case.from_text(case))
+    push["force"] = [14.0, 0.0, 0.0]
+    slipped = block([LUGRE, push], 5.0, method=method, rtol=1e-6)
     rate = slipped["joints/slide/displacement_rate"].values[-1]
     assert rate == pytest.approx(2.0 * (1.0 - np.exp(-7.5)), rel=2e-3)  # 2 v' = 14 - 8 - 3 v
-
-
-BUSHING = """
-[environment]
-gravity = 9.81
-[[body]]
-name = "engine"
-motion = "rigid"
-mass = 4.0
-center_of_gravity = [0.0, 0.0, 0.0]
-inertia = [0.4, 0.5, 0.6]
-initial = { INITIAL }
-[[force]]
-type = "bushing"
-name = "mount"
-body_a = "ground"
-body_b = "engine"
-point = [0.0, 0.0, 0.0]
-stiffness = [900.0, 1600.0, 2500.0, 4.0, 9.0, 16.0]
-pretension = [0.0, 0.0, 39.24, 0.0, 0.0, 0.0]
-[solver]
-METHOD
-end_time = 3.0
-[output]
-step = 0.01
-"""
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -166,10 +100,14 @@ def test_a_bushing_swings_at_its_own_frequencies(method: str, axis: int) -> None
     """sqrt(k / m) along each axis, sqrt(k / I) about it; large turns about a principal axis too."""
     shift, turn = np.zeros(3), np.zeros(3)
     shift[axis], turn[axis] = 0.1, 60.0
-    case = BUSHING.replace(
-        "INITIAL", f"displacement = {shift.tolist()}, rotation_deg = {turn.tolist()}"
-    ).replace("METHOD", f'method = "{method}"\nrtol = 1e-7')
-    results = hydrodae.run(hydrodae.Case.from_text(case))
+    ends = dict(body_a="ground", body_b="engine", point=[0.0, 0.0, 0.0])
+    springs = [900.0, 1600.0, 2500.0, 4.0, 9.0, 16.0]
+    hold = dict(stiffness=springs, pretension=[0.0, 0.0, 39.24, 0.0, 0.0, 0.0])
+    engine = body("engine", "rigid", 4.0, inertia=[0.4, 0.5, 0.6], displacement=shift)
+    engine["initial"]["rotation_deg"] = turn.tolist()
+    mount = dict(type="bushing", name="mount", **ends, **hold)
+    tables = case([engine], 3.0, forces=[mount], gravity=9.81, samples=300)
+    results = run_tables(tables, method=method, rtol=1e-7)
     time = results["forces/mount/displacement"].time.values
     k, k_turn = [900.0, 1600.0, 2500.0][axis], [4.0, 9.0, 16.0][axis]
     inertia = [0.4, 0.5, 0.6][axis]
@@ -185,39 +123,18 @@ def test_a_bushing_swings_at_its_own_frequencies(method: str, axis: int) -> None
 
 def test_a_bushing_between_bodies_keeps_momentum() -> None:
     """Two free bodies, off-centre, twisted: linear and angular momentum stay zero."""
-    case = """
-[environment]
-gravity = 0.0
-[[body]]
-name = "a"
-motion = "rigid"
-mass = 3.0
-center_of_gravity = [0.0, 0.0, 0.0]
-inertia = [0.2, 0.3, 0.4]
-[[body]]
-name = "b"
-motion = "rigid"
-mass = 1.0
-center_of_gravity = [1.0, 0.3, -0.2]
-inertia = [0.1, 0.2, 0.15]
-initial = { displacement = [0.05, -0.1, 0.02], rotation_deg = [20.0, -35.0, 50.0] }
-[[force]]
-type = "bushing"
-name = "coupling"
-body_a = "a"
-body_b = "b"
-point = [0.6, 0.1, 0.0]
-axis = [1.0, 0.0, 0.0]
-stiffness = [90.0, 160.0, 250.0, 4.0, 9.0, 16.0]
-damping = [1.0, 1.0, 1.0, 0.1, 0.1, 0.1]
-[solver]
-method = "radau"
-rtol = 1e-8
-end_time = 5.0
-[output]
-step = 0.05
-"""
-    results = hydrodae.run(hydrodae.Case.from_text(case))
+    tilted = dict(displacement=[0.05, -0.1, 0.02], rotation_deg=[20.0, -35.0, 50.0])
+    law = dict(
+        stiffness=[90.0, 160.0, 250.0, 4.0, 9.0, 16.0], damping=[1.0, 1.0, 1.0, 0.1, 0.1, 0.1]
+    )
+    ends = dict(body_a="a", body_b="b", point=[0.6, 0.1, 0.0], axis=[1.0, 0.0, 0.0])
+    bodies = [
+        body("a", "rigid", 3.0, inertia=[0.2, 0.3, 0.4]),
+        body("b", "rigid", 1.0, [1.0, 0.3, -0.2], [0.1, 0.2, 0.15], **tilted),
+    ]
+    coupling = dict(type="bushing", name="coupling", **ends, **law)
+    tables = case(bodies, 5.0, forces=[coupling], gravity=0.0, samples=100)
+    results = run_tables(tables, method="radau", rtol=1e-8)
     linear, angular = np.zeros(3), np.zeros(3)
     for name, mass in (("a", 3.0), ("b", 1.0)):
         linear = linear + mass * results[f"bodies/{name}/velocity"].values
@@ -238,50 +155,27 @@ step = 0.05
     assert np.abs(angular).max() < 1e-7
 
 
-PYTHON_LOAD = '[[force]]\ntype = "python_load"\nname = "own"\njoint = "slide"\n'
-
-
 @pytest.mark.parametrize("method", METHODS)
 def test_a_python_law_is_the_same_as_a_built_in_one(method: str) -> None:
-    linear = PYTHON_LOAD.replace("python_load", "pto_linear") + "stiffness = 50.0\ndamping = 1.5\n"
-    solver = f'method = "{method}"\nrtol = 1e-8'
-    built_in = hydrodae.run(hydrodae.Case.from_text(slide(linear, 3.0, start=0.2, solver=solver)))[
-        "joints/slide/displacement"
-    ].values
-    case = hydrodae.Case.from_text(slide(PYTHON_LOAD, 3.0, start=0.2, solver=solver))
+    linear = dict(type="pto_linear", name="own", joint="slide", stiffness=50.0, damping=1.5)
+    built_in = block(linear, 3.0, start=0.2, method=method)["joints/slide/displacement"].values
     law = lambda _t, s, rate: -50.0 * s - 1.5 * rate  # noqa: E731
-    own = hydrodae.run(case, forces={"own": law})
+    own = block(OWN, 3.0, start=0.2, method=method, given={"own": law})
     assert own["joints/slide/displacement"].values == pytest.approx(built_in, abs=1e-8)
     assert own["forces/own/force"].values[0] == pytest.approx(-10.0)
 
 
 def test_a_python_wrench_acts_on_a_body() -> None:
     """A conical pendulum of sorts: F = -k r + c z x v keeps the plane turning."""
-    case = """
-[environment]
-gravity = 0.0
-[[body]]
-name = "bead"
-motion = "point"
-mass = 1.0
-center_of_gravity = [0.0, 0.0, 0.0]
-initial = { displacement = [0.1, 0.0, 0.0] }
-[[force]]
-type = "python_wrench"
-name = "field"
-body = "bead"
-[solver]
-rtol = 1e-9
-end_time = 4.0
-[output]
-step = 0.1
-"""
+    bead = body("bead", "point", 1.0, displacement=[0.1, 0.0, 0.0])
+    wrench = dict(type="python_wrench", name="field", body="bead")
+    tables = case([bead], 4.0, forces=[wrench], gravity=0.0, samples=40)
 
     def field(_time: float, xi: np.ndarray, twist: np.ndarray) -> np.ndarray:
         force = -9.0 * xi[:3] + 0.8 * np.cross([0.0, 0.0, 1.0], twist[:3])
         return np.concatenate([force, np.zeros(3)])
 
-    results = hydrodae.run(hydrodae.Case.from_text(case), forces={"field": field})
+    results = hydrodae.run(case_of(tables, rtol=1e-9), forces={"field": field})
     time = results["bodies/bead/position"].time.values
     # x + i y = sum of two rotations: s^2 - 0.8 i s + 9 = 0
     roots = np.roots([1.0, -0.8j, 9.0])
@@ -292,7 +186,7 @@ step = 0.1
 
 
 def test_what_a_python_law_does_wrong_comes_back() -> None:
-    case = hydrodae.Case.from_text(slide(PYTHON_LOAD, 1.0, start=0.2))
+    case = block_case(OWN, 1.0, start=0.2)
 
     def breaks(time: float, _s: float, _rate: float) -> float:
         if time > 0.3:
@@ -313,7 +207,7 @@ def test_what_a_python_law_does_wrong_comes_back() -> None:
 
 def test_states_stand_in_check_and_in_the_linear_model() -> None:
     """`check` counts them; at rest bristles are springs: sqrt(sigma_0 / m)."""
-    case = hydrodae.Case.from_text(slide(LUGRE, 1.0))
+    case = block_case(LUGRE, 1.0)
     text = hydrodae.check(case)
     assert "+ 1 states" in text
     assert "force rail" in text

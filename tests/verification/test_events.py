@@ -2,42 +2,55 @@
 
 from __future__ import annotations
 
-import json
+import copy
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from tests.attack.parts import DOWN_Y, Table, X, Y, Z, body, case, joint, stop
 from tests.errors import wrong
-from tests.scenes import bouncing_ball, pendulum, slide, table
+from tests.verification.blocks import run_tables
 
 import hydrodae
 from hydrodae.errors import SolverError
 from hydrodae.study.stability import switching
 
-METHODS = {
-    "ida": "",
-    "radau": 'method = "radau"\n',
-    "explicit_rk": 'method = "explicit_rk"\n',
-    "generalized_alpha": 'method = "generalized_alpha"\nstep = 0.002\n',
-    "gauss": 'method = "gauss"\nstep = 0.01\n',
-    "lobatto_iiic": 'method = "lobatto_iiic"\nstep = 0.01\n',
+METHODS: dict[str, dict[str, Any]] = {
+    "ida": {},
+    "radau": {"method": "radau"},
+    "explicit_rk": {"method": "explicit_rk"},
+    "generalized_alpha": {"method": "generalized_alpha", "step": 0.002},
+    "gauss": {"method": "gauss", "step": 0.01},
+    "lobatto_iiic": {"method": "lobatto_iiic", "step": 0.01},
 }
 GRAVITY = 9.81
-OUTPUT = "[output]\nstep = 0.01\n"
-
-BALL = bouncing_ball(0.8) + OUTPUT
-
-BLOCK = (
-    slide("block", displacement=[0.5, 0.0, 0.0])
-    + table("force", name="spring", type="pto_linear", joint="slide", stiffness=200.0)
-    + table("force", name="dry", type="dry_friction", joint="slide", static=6.0)
-    + OUTPUT
-)
 
 
-def run(text: str, end_time: float, method: str = "ida", rtol: float = 1e-8) -> hydrodae.Results:
-    solver = f"[solver]\nend_time = {end_time}\nrtol = {rtol}\n{METHODS[method]}"
-    return hydrodae.run(hydrodae.Case.from_text(text + solver))
+def ball(end: float, restitution: float = 0.8, lower: float = -1.0, **bounds: float) -> Table:
+    """Return a ball of 2 kg on a guide, `lower` above a floor."""
+    at = [0.0, 0.0, 1.0]
+    return case(
+        [body("ball", "heave", 2.0, at)],
+        end,
+        joints=[joint("guide", "prismatic", "ground", "ball", at, Z)],
+        constraints=[stop("floor", "guide", restitution, lower=lower, **bounds)],
+        output={"step": 0.01},
+    )
+
+
+def block(end: float, **friction: float) -> Table:
+    """Return a mass on a spring that rubs."""
+    spring = dict(type="pto_linear", name="spring", joint="slide", stiffness=200.0)
+    dry = {"type": "dry_friction", "name": "dry", "joint": "slide", "static": 6.0, **friction}
+    return case(
+        [body("block", "surge", 2.0, displacement=[0.5, 0.0, 0.0])],
+        end,
+        gravity=0.0,
+        joints=[joint("slide", "prismatic", "ground", "block", axis=X)],
+        forces=[spring, dry],
+        output={"step": 0.01},
+    )
 
 
 def bounces(time: np.ndarray, restitution: float) -> np.ndarray:
@@ -55,7 +68,7 @@ def bounces(time: np.ndarray, restitution: float) -> np.ndarray:
 
 @pytest.mark.parametrize("method", METHODS)
 def test_a_ball_bounces_until_it_rests(method: str) -> None:
-    results = run(BALL, 5.0, method)
+    results = run_tables(ball(5.0), rtol=1e-8, **METHODS[method])
     z = np.asarray(results["bodies/ball/position"].values)[:, 2]
     np.testing.assert_allclose(z, bounces(results.time, 0.8), atol=2e-6)
     floor = np.asarray(results["constraints/floor/reaction"].values)
@@ -75,7 +88,7 @@ def test_dry_friction_stops_an_oscillator(method: str) -> None:
     while abs(turns[-1]) > held:
         turns.append(-turns[-1] + np.copysign(2.0 * held, turns[-1]))
     assert turns[-1] == pytest.approx(0.02)
-    results = run(BLOCK, 4.0, method)
+    results = run_tables(block(4.0), rtol=1e-8, **METHODS[method])
     x = np.asarray(results["bodies/block/position"].values)[:, 0]
     for k, turn in enumerate(turns):
         near = np.abs(results.time - k * half_period) < 0.006
@@ -117,19 +130,20 @@ def limit_cycle(mass: float, k: float, static: float, kinetic: float, speed: flo
     return slips + 2.0 * ahead / speed, kinetic / k + amplitude
 
 
+BELT = next(s for s in switching.scenes() if s.name == "stick_slip")
+
+
 @pytest.mark.parametrize("speed", [0.05, 0.2, 1.0])
 def test_stick_slip_on_a_belt(speed: float) -> None:
     """Period and largest deflection of the limit cycle, for three speeds of the belt."""
     period, deflection = limit_cycle(1.0, 50.0, 10.0, 6.0, speed)
-    scene = next(s for s in switching.scenes() if s.name == "stick_slip")
-    tables = json.loads(json.dumps(scene.tables))
+    tables = copy.deepcopy(dict(BELT.tables))
     tables["constraint"][0]["drive"]["rate"] = speed
-    for body in tables["body"]:
-        body["initial"]["velocity"][0] = speed
+    for table in tables["body"]:
+        table["initial"]["velocity"][0] = speed
     tables["solver"]["end_time"] = 0.2 / speed + 2.2 * period
     tables["output"]["step"] = period / 4000.0
-    scene = type(scene)(**{**scene.__dict__, "tables": tables})
-    results = hydrodae.run(scene.case({"rtol": 1e-9}, Path()))
+    results = run_tables(tables, rtol=1e-9)
     x = np.asarray(results["bodies/block/position"].values)[:, 0]
     assert x.max() == pytest.approx(deflection, rel=1e-5)
     peaks = results.time[1:-1][(x[1:-1] > x[:-2]) & (x[1:-1] >= x[2:])]
@@ -137,19 +151,20 @@ def test_stick_slip_on_a_belt(speed: float) -> None:
 
 
 def test_methods_agree_on_stick_slip(tmp_path: Path) -> None:
-    scene = next(s for s in switching.scenes() if s.name == "stick_slip")
     for solver in ({"rtol": 1e-9}, {"method": "radau"}, {"method": "explicit_rk"}):
-        results = hydrodae.run(scene.case(solver, tmp_path))
-        assert scene.error(results) < 1e-6
+        assert BELT.error(hydrodae.run(BELT.case(solver, tmp_path))) < 1e-6
 
 
 def test_an_arm_strikes_a_stop_through_its_hinge() -> None:
     """A rod that falls onto a stop of its hinge: energy falls by the square of the restitution."""
-    stop = {"lower_deg": -10.0, "upper_deg": 40.0, "restitution": 0.5}
-    text = pendulum("rod", motion="rigid", mass=3.0, at=[0.5, 0.0, 0.0], inertia=[0.01, 0.25, 0.25])
-    text += table("constraint", name="stop", type="stop", joint="hinge", **stop)
-    text += "[output]\nstep = 0.005\n"
-    results = run(text, 1.5)
+    tables = case(
+        [body("rod", "rigid", 3.0, [0.5, 0.0, 0.0], [0.01, 0.25, 0.25])],
+        1.5,
+        joints=[joint("hinge", "revolute", "ground", "rod", axis=Y)],
+        constraints=[stop("stop", "hinge", 0.5, lower_deg=-10.0, upper_deg=40.0)],
+        output={"step": 0.005},
+    )
+    results = run_tables(tables, rtol=1e-8)
     angle = np.asarray(results["joints/hinge/angle"].values)
     assert np.degrees(angle.max()) == pytest.approx(40.0, abs=1e-6)
     # From rest, level, it falls by L/2 sin(40 deg); after the first impact it rises by a quarter.
@@ -164,34 +179,16 @@ def test_an_arm_strikes_a_stop_through_its_hinge() -> None:
 
 def test_two_blocks_strike_one_after_the_other() -> None:
     """Two masses on one line with a one-sided link of 1 m: momentum is kept at the snap."""
-    text = """
-[environment]
-gravity = 0.0
-[[body]]
-name = "a"
-motion = "surge"
-mass = 3.0
-center_of_gravity = [0.0, 0.0, 0.0]
-[[body]]
-name = "b"
-motion = "surge"
-mass = 1.0
-center_of_gravity = [0.5, 0.0, 0.0]
-initial = { velocity = [2.0, 0.0, 0.0] }
-[[joint]]
-name = "link"
-type = "distance"
-body_a = "a"
-body_b = "b"
-point = [0.0, 0.0, 0.0]
-point_b = [0.5, 0.0, 0.0]
-length = 1.0
-one_sided = true
-restitution = 0.5
-[output]
-step = 0.01
-"""
-    results = run(text, 1.0)
+    at = [0.5, 0.0, 0.0]
+    more: Table = dict(point_b=at, length=1.0, one_sided=True, restitution=0.5)
+    tables = case(
+        [body("a", "surge", 3.0), body("b", "surge", 1.0, at, velocity=[2.0, 0.0, 0.0])],
+        1.0,
+        gravity=0.0,
+        joints=[joint("link", "distance", "a", "b", **more)],
+        samples=100,
+    )
+    results = run_tables(tables, rtol=1e-8)
     va = np.asarray(results["bodies/a/velocity"].values)[-1, 0]
     vb = np.asarray(results["bodies/b/velocity"].values)[-1, 0]
     assert 3.0 * va + vb == pytest.approx(2.0, rel=1e-9)
@@ -200,11 +197,9 @@ step = 0.01
 
 
 def test_a_stop_holds_in_the_equilibrium() -> None:
-    spring = BALL.replace("lower = -1.0", "lower = -0.05") + (
-        '[[force]]\nname = "spring"\ntype = "pto_linear"\njoint = "guide"\nstiffness = 100.0\n'
-    )
-    case = hydrodae.Case.from_text(spring + '[solver]\nend_time = 1.0\nstart = "equilibrium"\n')
-    results = hydrodae.run(case)
+    tables = ball(1.0, lower=-0.05)
+    spring = dict(type="pto_linear", name="spring", joint="guide", stiffness=100.0)
+    results = run_tables(tables | {"force": [spring]}, start="equilibrium")
     z = np.asarray(results["bodies/ball/position"].values)[:, 2]
     np.testing.assert_allclose(z, 1.0 - 0.05, atol=1e-9)
     floor = np.asarray(results["constraints/floor/reaction"].values)
@@ -212,59 +207,64 @@ def test_a_stop_holds_in_the_equilibrium() -> None:
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "key"),
+    ("change", "key"),
     [
-        ("lower = -1.0", "upper = -0.5", ""),  # the start is beyond it
-        ("lower = -1.0", "", ""),  # no bound at all
-        ("lower = -1.0", "lower_deg = -1.0", ".lower_deg"),
-        ("lower = -1.0", "lower = 1.0\nupper = 0.5", ".upper"),
-        ("restitution = 0.8", "restitution = 1.2", ".restitution"),
-        ('type = "stop"', 'type = "coordinate"', ".lower"),
+        ({"lower": None, "upper": -0.5}, ""),  # the start is beyond it
+        ({"lower": None}, ""),  # no bound at all
+        ({"lower": None, "lower_deg": -1.0}, ".lower_deg"),
+        ({"lower": 1.0, "upper": 0.5}, ".upper"),
+        ({"restitution": 1.2}, ".restitution"),
+        ({"type": "coordinate"}, ".lower"),
     ],
 )
-def test_a_stop_that_makes_no_sense_is_refused(old: str, new: str, key: str) -> None:
+def test_a_stop_that_makes_no_sense_is_refused(change: Table, key: str) -> None:
+    tables = ball(1.0)
+    floor = tables["constraint"][0] | change
+    tables["constraint"] = [{k: value for k, value in floor.items() if value is not None}]
     with wrong(f"constraint.floor{key}"):
-        run(BALL.replace(old, new), 1.0)
+        run_tables(tables)
 
 
 def test_friction_that_makes_no_sense_is_refused() -> None:
     with wrong("force.dry.kinetic"):
-        run(BLOCK.replace("static = 6.0", "static = 6.0\nkinetic = 7.0"), 1.0)
+        run_tables(block(1.0, kinetic=7.0))
 
 
 def test_events_without_end_are_told() -> None:
     """A perfect rebound between bounds that close in on nothing cannot go on for ever."""
-    start = "initial = { displacement = -1.0, displacement_rate = 1.0 }"
-    text = BALL.replace("restitution = 0.8", "restitution = 1.0\nupper = -0.9999999")
-    text = text.replace('name = "guide"', f'name = "guide"\n{start}')
+    tables = ball(1.0, 1.0, upper=-0.9999999)
+    tables["joint"][0]["initial"] = {"displacement": -1.0, "displacement_rate": 1.0}
     with pytest.raises(SolverError, match="events of stops or dry friction brought only"):
-        run(text, 1.0)
+        run_tables(tables, rtol=1e-8)
 
 
 def test_an_impact_at_a_pose_that_is_a_little_off_is_one_event() -> None:
     """The interpolant leaves the joints open; closing them moves the stop beyond its bound."""
-    bars = [(0.46601954298361314, -0.1811788772383368), (1.0015733517454977, -0.7053810567211082)]
-    hinges = [(0.0, 0.0), (0.9320390859672263, -0.3623577544766736)]
-    text = "[solver]\nend_time = 2.0\nrtol = 1e-3\nmethod = 'explicit_rk'\n"
-    for k, ((x, z), (hinge_x, hinge_z)) in enumerate(zip(bars, hinges, strict=True)):
-        start = "velocity = [0.1715, 0.0, 0.0348], angular_velocity = [0.0, -0.5, 0.0]" if k else ""
-        text += (
-            f"[[body]]\nname = 'bar{k}'\nmotion = 'planar'\nmass = {2.0 - k}\n"
-            f"center_of_gravity = [{x}, 0.0, {z}]\ninertia = [0.1, {0.1667 / (1 + 3 * k)}, 0.1]\n"
-            f"initial = {{ {start} }}\n"
-            f"[[joint]]\nname = 'hinge{k}'\ntype = 'revolute'\naxis = [0.0, -1.0, 0.0]\n"
-            f"body_a = '{'bar0' if k else 'ground'}'\nbody_b = 'bar{k}'\n"
-            f"point = [{hinge_x}, 0.0, {hinge_z}]\n"
-        )
-    text += "[[constraint]]\nname = 'stop'\ntype = 'stop'\njoint = 'hinge1'\nrestitution = 0.5\n"
-    text += "lower_deg = -22.918311805232932\nupper_deg = 28.64788975654116\n"
-    results = hydrodae.run(hydrodae.Case.from_text(text))
+    ends = [(0.46601954298361314, -0.1811788772383368), (1.0015733517454977, -0.7053810567211082)]
+    hinge = [0.9320390859672263, 0.0, -0.3623577544766736]
+    (x, z), (x_1, z_1) = ends
+    spin = dict(velocity=[0.1715, 0.0, 0.0348], angular_velocity=[0.0, -0.5, 0.0])
+    bounds = dict(lower_deg=-22.918311805232932, upper_deg=28.64788975654116)
+    tables = case(
+        [
+            body("bar0", "planar", 2.0, [x, 0.0, z], [0.1, 0.1667, 0.1]),
+            body("bar1", "planar", 1.0, [x_1, 0.0, z_1], [0.1, 0.1667 / 4, 0.1], **spin),
+        ],
+        2.0,
+        joints=[
+            joint("hinge0", "revolute", "ground", "bar0", axis=DOWN_Y),
+            joint("hinge1", "revolute", "bar0", "bar1", hinge, DOWN_Y),
+        ],
+        constraints=[stop("stop", "hinge1", 0.5, **bounds)],
+    )
+    del tables["output"]
+    results = run_tables(tables, method="explicit_rk", rtol=1e-3)
     assert 1 <= len(results.impacts["stop"]["time"]) < 20
 
 
 def test_impacts_report_their_impulses_and_the_energy_they_take() -> None:
     """A ball falls 1 m: v = e^n sqrt(2 g), impulse m (1 + e) v, energy (1 - e^2) m v^2 / 2."""
-    results = run(BALL, 2.5)
+    results = run_tables(ball(2.5), rtol=1e-8)
     mass, e, speed = 2.0, 0.8, np.sqrt(2.0 * GRAVITY)
     table = results.impacts["floor"]
     fall = np.sqrt(2.0 / GRAVITY)
@@ -288,14 +288,14 @@ def test_impacts_report_their_impulses_and_the_energy_they_take() -> None:
 
 def test_a_contact_time_tells_the_peak_force() -> None:
     """Half a sine of the length T and the impulse J: pi J / 2 T. The motion stays the same."""
-    results = run(BALL.replace("restitution = 0.8", "restitution = 0.8\ncontact_time = 0.02"), 1.0)
+    results = run_tables(ball(1.0, contact_time=0.02), rtol=1e-8)
     table = results.impacts["floor"]
     largest = 2.0 * 1.8 * np.sqrt(2.0 * GRAVITY)  # N s
     np.testing.assert_allclose(table["impulse"][0], largest, rtol=1e-5)
     np.testing.assert_allclose(table["peak_force"], np.pi * table["impulse"] / 0.04, rtol=1e-12)
     assert table["peak_force"].attrs["unit"] == "N"
     assert f"peak force {np.pi * largest / 0.04:.4g} N" in results.summary()
-    plain = run(BALL, 1.0)
+    plain = run_tables(ball(1.0), rtol=1e-8)
     assert "peak_force" not in plain.impacts["floor"]
     np.testing.assert_array_equal(
         plain["bodies/ball/position"].values, results["bodies/ball/position"].values
@@ -305,7 +305,6 @@ def test_a_contact_time_tells_the_peak_force() -> None:
 @pytest.mark.parametrize("method", ["gauss", "lobatto_iiic"])
 def test_low_orders_locate_impacts_on_a_parabola(method: str) -> None:
     """Of order 2 the velocities are a line in each step, and a fall is exact."""
-    solver = f'[solver]\nend_time = 2.0\nmethod = "{method}"\norder = 2\nstep = 0.05\n'
-    results = hydrodae.run(hydrodae.Case(text=BALL + solver))
+    results = run_tables(ball(2.0), method=method, order=2, step=0.05)
     z = np.asarray(results["bodies/ball/position"].values)[:, 2]
     np.testing.assert_allclose(z, bounces(results.time, 0.8), atol=1e-6)

@@ -2,63 +2,63 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from tests import scenes
+from tests.attack.parts import ORIGIN, Table, Vector, X, Y, body, case, joint
+from tests.verification.blocks import run_tables
 
 import hydrodae
 from hydrodae.errors import CaseError, SolverError
 
 G = 9.81
-IMPLICIT = {
-    "ida": 'method = "ida"\nrtol = 1e-8',
-    "radau": 'method = "radau"\nrtol = 1e-8',
-    "generalized_alpha": 'method = "generalized_alpha"\nstep = 0.001',
-    "gauss": 'method = "gauss"\nstep = 0.002',
-    "lobatto_iiic": 'method = "lobatto_iiic"\nstep = 0.002',
+METHODS: dict[str, dict[str, Any]] = {
+    "ida": {"rtol": 1e-8},
+    "radau": {"rtol": 1e-8},
+    "generalized_alpha": {"step": 0.001},
+    "gauss": {"step": 0.002},
+    "lobatto_iiic": {"step": 0.002},
+    "explicit_rk": {"rtol": 1e-8},
+    "auto": {"rtol": 1e-8},
 }
-METHODS = IMPLICIT | {"explicit_rk": 'method = "explicit_rk"\nrtol = 1e-8', "auto": "rtol = 1e-8"}
 # From rest the rate of creep is 1e4 1/s and more: beyond the fixed steps above, which refuse it.
 ADAPTIVE = ["ida", "radau", "explicit_rk", "auto"]
+ADJUST = dict(length=0.5, radius=0.1)
+STRIBECK = dict(type="friction_stribeck", creep_rate=1e-4, **ADJUST)
+LUGRE = dict(type="friction_lugre", stribeck_rate=1e-3, **ADJUST)
+LUGRE |= dict(bristle_stiffness=1e5, bristle_damping=600.0)
+DRY = dict(type="dry_friction", **ADJUST)
 
 
-STRIBECK = 'type = "friction_stribeck"\nlength = 0.5\nradius = 0.1\ncreep_rate = 1e-4'
-LUGRE = (
-    'type = "friction_lugre"\nlength = 0.5\nradius = 0.1\nstribeck_rate = 1e-3\n'
-    "bristle_stiffness = 1e5\nbristle_damping = 600.0"
-)
-DRY = 'type = "dry_friction"\nlength = 0.5\nradius = 0.1'
+def run(tables: Table, method: str, **solver: Any) -> hydrodae.Results:
+    return run_tables(tables, method=method, **(METHODS[method] | solver))
 
 
 def slide(
-    friction: str,
-    solver: str,
+    friction: Table,
     end: float = 1.0,
     *,
-    axis: np.ndarray | None = None,
+    axis: Vector = X,
     motion: str = "rigid",
     speed: float = 0.0,
-    point: list[float] | None = None,
-) -> str:
-    """Return the case of a block on a straight guide; `axis` points along the motion."""
-    along = np.array([1.0, 0.0, 0.0]) if axis is None else axis
-    mover = scenes.slide(
-        "block",
-        joint="guide",
-        motion=motion,
-        axis=along.tolist(),
-        point=point,
-        inertia=[0.1, 0.2, 0.15],
-        gravity=9.81,
-        velocity=(speed * along).tolist(),
+    point: Vector = ORIGIN,
+    gravity: float = G,
+    loads: Sequence[Table] = (),
+    step: float = 0.01,
+) -> Table:
+    """Return a block on a straight guide; `axis` points along the motion."""
+    start = {"velocity": speed * np.asarray(axis)}
+    return case(
+        [body("block", motion, 2.0, inertia=[0.1, 0.2, 0.15], **start)],
+        end,
+        gravity=gravity,
+        joints=[joint("guide", "prismatic", "ground", "block", point, axis)],
+        forces=[{"name": "pads", "joint": "guide", **friction}, *loads],
+        output={"step": step},
     )
-    pads = f'[[force]]\nname = "pads"\njoint = "guide"\n{friction}\n'
-    return f"{mover}{pads}[solver]\nend_time = {end}\n{solver}\n[output]\nstep = 0.01\n"
-
-
-def run(text: str) -> hydrodae.Results:
-    return hydrodae.run(hydrodae.Case.from_text(text))
 
 
 def down(angle: float) -> np.ndarray:
@@ -70,8 +70,8 @@ def down(angle: float) -> np.ndarray:
 def test_a_block_slides_down_an_incline(method: str, motion: str) -> None:
     """A normal force m g cos(alpha) that nobody gave: s'' = g (sin(alpha) - mu cos(alpha))."""
     angle, mu, speed = 0.6, 0.3, 0.5
-    friction = STRIBECK + f"\nstatic_coefficient = {mu}"
-    results = run(slide(friction, METHODS[method], axis=down(angle), motion=motion, speed=speed))
+    friction = STRIBECK | {"static_coefficient": mu}
+    results = run(slide(friction, axis=down(angle), motion=motion, speed=speed), method)
     t = results.time
     rate = np.asarray(results["joints/guide/displacement_rate"].values)
     acceleration = G * (np.sin(angle) - mu * np.cos(angle))
@@ -91,10 +91,9 @@ def test_a_block_slides_down_an_incline(method: str, motion: str) -> None:
 def test_a_block_stays_on_an_incline_below_the_angle_of_friction(method: str) -> None:
     """Where tan(alpha) < mu it creeps at s'_0 x / sqrt(1 - x^2), x = tan(alpha) / mu."""
     angle, mu = 0.25, 0.3
-    solver = METHODS[method]
-    if method == "explicit_rk":  # stiff: mu N / (m s'_0) = 3e4 1/s
-        solver = 'method = "explicit_rk"\nrtol = 1e-6'
-    results = run(slide(STRIBECK + f"\nstatic_coefficient = {mu}", solver, 0.3, axis=down(angle)))
+    rough = {"rtol": 1e-6} if method == "explicit_rk" else {}  # stiff: mu N / (m s'_0) = 3e4 1/s
+    friction = STRIBECK | {"static_coefficient": mu}
+    results = run(slide(friction, 0.3, axis=down(angle)), method, **rough)
     part = np.tan(angle) / mu
     creep = 1e-4 * part / np.sqrt(1.0 - part**2)
     rate = np.asarray(results["joints/guide/displacement_rate"].values)
@@ -105,8 +104,8 @@ def test_a_block_stays_on_an_incline_below_the_angle_of_friction(method: str) ->
 @pytest.mark.parametrize(("angle", "slips"), [(0.28, False), (0.31, True)])
 def test_dry_friction_takes_the_reaction(method: str, angle: float, slips: bool) -> None:
     """It sticks while tan(alpha) < mu_s = 0.3 (16.7 deg), and slips by mu_k beyond."""
-    friction = DRY + "\nstatic_coefficient = 0.3\nkinetic_coefficient = 0.25"
-    results = run(slide(friction, METHODS[method], 0.5, axis=down(angle)))
+    friction = DRY | dict(static_coefficient=0.3, kinetic_coefficient=0.25)
+    results = run(slide(friction, 0.5, axis=down(angle)), method)
     place = np.asarray(results["joints/guide/displacement"].values)
     if slips:
         fall = 0.5 * G * (np.sin(angle) - 0.25 * np.cos(angle)) * results.time**2
@@ -120,8 +119,7 @@ def test_dry_friction_takes_the_reaction(method: str, angle: float, slips: bool)
 @pytest.mark.parametrize("method", ["ida", "radau", "explicit_rk"])
 def test_dry_friction_stops_by_the_reaction(method: str) -> None:
     """On a level guide it stops after v / (mu g) and stays there."""
-    friction = DRY + "\nstatic_coefficient = 0.3"
-    results = run(slide(friction, METHODS[method], 1.0, speed=1.5))
+    results = run(slide(DRY | {"static_coefficient": 0.3}, speed=1.5), method)
     stop = 1.5 / (0.3 * G)
     rate = np.asarray(results["joints/guide/displacement_rate"].values)
     rests = results.time > stop
@@ -133,40 +131,34 @@ def test_dry_friction_stops_by_the_reaction(method: str) -> None:
 @pytest.mark.parametrize("method", ["ida", "radau", "explicit_rk"])
 def test_bristles_take_the_reaction(method: str) -> None:
     """They hold below mu_s N by m g sin(alpha) / sigma_0, and slide by mu_k N."""
-    friction = LUGRE + "\nstatic_coefficient = 0.4\nkinetic_coefficient = 0.3"
-    held = run(slide(friction, METHODS[method], 1.0, axis=down(0.25)))
+    friction = LUGRE | dict(static_coefficient=0.4, kinetic_coefficient=0.3)
+    held = run(slide(friction, axis=down(0.25)), method)
     deflection = np.asarray(held["forces/pads/deflection"].values)
     assert deflection[-1] == pytest.approx(2.0 * G * np.sin(0.25) / 1e5, rel=1e-5)
-    slides = run(slide(friction, METHODS[method], 1.0, axis=down(0.6), speed=0.5))
+    slides = run(slide(friction, axis=down(0.6), speed=0.5), method)
     rate = np.asarray(slides["joints/guide/displacement_rate"].values)
     slope = (rate[-1] - rate[20]) / (slides.time[-1] - slides.time[20])
     assert slope == pytest.approx(G * (np.sin(0.6) - 0.3 * np.cos(0.6)), rel=1e-5)
 
 
-PUSH = """
-[[force]]
-type = "constant_load"
-name = "push"
-body = "block"
-force = [{x:.17g}, 0.0, 0.0]
-moment = [0.0, 0.0, {m:.17g}]
-"""
+def push(force: float, moment: float) -> list[Table]:
+    vectors = dict(force=[force, 0.0, 0.0], moment=[0.0, 0.0, moment])
+    return [{"type": "constant_load", "name": "push", "body": "block", **vectors}]
 
 
 @pytest.mark.parametrize("method", ADAPTIVE)
 @pytest.mark.parametrize("part", [0.9, 0.99, 1.01, 1.2])
 def test_a_push_off_the_guide_locks_it(method: str, part: float) -> None:
     """Pushed at a distance e from the guide, N = 2 F e / L: no push moves it from mu = L / 2e."""
-    offset, length, push = 0.4, 0.5, 300.0
+    offset, length, load = 0.4, 0.5, 300.0
     mu = part * length / (2.0 * offset)
-    friction = STRIBECK + f"\nstatic_coefficient = {mu}\nsmall_force = 0.001"
     creep = 1e-4 if part < 1.0 else 1e-2  # so that it creeps steadily before long
-    friction = friction.replace("1e-4", f"{creep}")
-    text = slide(friction, METHODS[method], 0.3).replace("gravity = 9.81", "gravity = 0.0")
-    results = run(text.replace("[solver]", PUSH.format(x=push, m=-offset * push) + "[solver]"))
+    friction = STRIBECK | dict(static_coefficient=mu, small_force=0.001, creep_rate=creep)
+    off_guide = push(load, -offset * load)
+    results = run(slide(friction, 0.3, gravity=0.0, loads=off_guide), method)
     rate = np.asarray(results["joints/guide/displacement_rate"].values)
     if part < 1.0:
-        assert rate[-1] == pytest.approx(push / 2.0 * (1.0 - part) * 0.3, rel=5e-3)
+        assert rate[-1] == pytest.approx(load / 2.0 * (1.0 - part) * 0.3, rel=5e-3)
     else:
         assert rate[-1] == pytest.approx(creep / np.sqrt(part**2 - 1.0), rel=1e-3)
 
@@ -183,47 +175,41 @@ def test_a_centre_off_the_guide_jams_it(method: str, kind: str, pushed: float, p
     """
     offset, length, speed = 0.4, 0.5, 3.0
     mu = part * length / (2.0 * offset)
-    law = DRY if kind == "dry" else STRIBECK
-    friction = law + f"\nstatic_coefficient = {mu}\nsmall_force = 0.001"
-    text = slide(friction, METHODS[method], 0.005, speed=speed, point=[0.0, -offset, 0.0])
-    text = text.replace("gravity = 9.81", "gravity = 0.0").replace("step = 0.01", "step = 0.001")
-    text = text.replace("0.002", "0.0005")
+    law = (DRY if kind == "dry" else STRIBECK) | dict(static_coefficient=mu, small_force=0.001)
     # The load acts on the line of the guide: a moment about the centre of gravity.
-    push = PUSH.format(x=pushed, m=offset * pushed)
-    text = text.replace("[solver]", push + "[solver]")
+    tables = slide(
+        law,
+        0.005,
+        speed=speed,
+        point=[0.0, -offset, 0.0],
+        gravity=0.0,
+        loads=push(pushed, offset * pushed),
+        step=0.001,
+    )
+    fine = {"step": 0.0005} if METHODS[method].get("step") == 0.002 else {}
     if part > 1.0:
         with pytest.raises(
             SolverError, match=r"friction 'pads' jams joint 'guide'.*not below 0\.625"
         ):
-            run(text)
+            run(tables, method, **fine)
         return
-    results = run(text)
+    results = run(tables, method, **fine)
     rate = np.asarray(results["joints/guide/displacement_rate"].values)
     slope = pushed / 2.0 / (1.0 + part * np.sign(pushed))
     expected = speed + slope * results.time
     np.testing.assert_allclose(rate[expected > 0.5], expected[expected > 0.5], rtol=2e-4)
 
 
-PENDULUM = (
-    scenes.pendulum("arm", motion="MOTION", mass=3.0, at=[0.8, 0.0, 0.0], inertia=[0.1, 0.3, 0.25])
-    + """
-[[force]]
-type = "friction_stribeck"
-name = "bearing"
-joint = "hinge"
-static_coefficient = 0.2
-radius = 0.05
-LENGTHS
-creep_rate = 0.02
-viscous = 0.01
-preload = 4.0
-[solver]
-end_time = 3.0
-SOLVER
-[output]
-step = 0.02
-"""
-)
+def arm(motion: str = "planar", *joints: Table, **keys: Any) -> Table:
+    """Return a pendulum that rubs in its bearing; keys that are None are left out."""
+    law = dict(type="friction_stribeck", name="bearing", joint="hinge", static_coefficient=0.2)
+    law |= dict(radius=0.05, creep_rate=0.02, viscous=0.01, preload=4.0)
+    if motion == "rigid":
+        law |= dict(length=0.1, radius_axial=0.05)
+    law = {key: value for key, value in (law | keys).items() if value is not None}
+    bar = body("arm", motion, 3.0, [0.8, 0.0, 0.0], [0.1, 0.3, 0.25])
+    hinge = joint("hinge", "revolute", "ground", "arm", axis=Y)
+    return case([bar], 3.0, joints=[hinge, *joints], forces=[law], samples=150)
 
 
 def pendulum(time: np.ndarray) -> np.ndarray:
@@ -255,9 +241,7 @@ def pendulum(time: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("motion", ["planar", "rigid"])
 def test_a_pendulum_rubs_in_its_bearing(method: str, motion: str) -> None:
-    lengths = "" if motion == "planar" else "length = 0.1\nradius_axial = 0.05"
-    text = PENDULUM.replace("MOTION", motion).replace("LENGTHS", lengths)
-    results = run(text.replace("SOLVER", METHODS[method]))
+    results = run(arm(motion), method)
     angle = np.asarray(results["joints/hinge/angle"].values)
     tolerance = 5e-5 if method == "generalized_alpha" else 2e-6
     np.testing.assert_allclose(angle, pendulum(results.time), atol=tolerance)
@@ -268,54 +252,42 @@ def test_a_pendulum_rubs_in_its_bearing(method: str, motion: str) -> None:
     ("method", "order"), [("gauss", 2), ("lobatto_iiic", 2), ("explicit_rk", 5)]
 )
 def test_the_error_falls_with_the_step(method: str, order: int) -> None:
+    tables = arm(creep_rate=0.5)
+    reference = run(tables, "radau", rtol=1e-11)["joints/hinge/angle"].values
+    more: Table = {"order": 5} if method == "explicit_rk" else {}
     errors = []
     for step in (0.02, 0.01):
-        text = PENDULUM.replace("MOTION", "planar").replace("LENGTHS", "")
-        text = text.replace("creep_rate = 0.02", "creep_rate = 0.5").replace("0.02\n", "0.02\n")
-        extra = "\norder = 5" if method == "explicit_rk" else ""
-        solver = f'method = "{method}"\nstep = {step}{extra}'
-        reference = run(text.replace("SOLVER", 'method = "radau"\nrtol = 1e-11'))
-        angle = run(text.replace("SOLVER", solver))["joints/hinge/angle"].values
-        errors.append(np.abs(angle - reference["joints/hinge/angle"].values).max())
+        angle = run_tables(tables, method=method, step=step, **more)["joints/hinge/angle"].values
+        errors.append(np.abs(angle - reference).max())
     assert np.log2(errors[0] / errors[1]) > order - 0.5
 
 
 @pytest.mark.parametrize("formulation", ["stabilised", "index_2", "index_1"])
 def test_formulations_press_alike(formulation: str) -> None:
-    text = PENDULUM.replace("MOTION", "planar").replace("LENGTHS", "")
-    solver = f'method = "radau"\nrtol = 1e-9\nformulation = "{formulation}"'
-    results = run(text.replace("SOLVER", solver))
+    results = run(arm(), "radau", rtol=1e-9, formulation=formulation)
     angle = np.asarray(results["joints/hinge/angle"].values)
     np.testing.assert_allclose(angle, pendulum(results.time), atol=1e-5)
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "message"),
+    ("keys", "kind", "message"),
     [
-        ("static_coefficient = 0.2", "static = 1.0", "go with 'static_coefficient'"),
-        ("radius = 0.05", "", "needs the key 'radius'"),
-        ("LENGTHS", "", "needs the key 'length'"),
-        ("static_coefficient = 0.2", "", "either 'static'"),
-        (
-            "static_coefficient = 0.2",
-            "static_coefficient = 0.2\nkinetic_coefficient = 0.3",
-            "must not be above",
-        ),
-        ('"revolute"', '"universal"', "prismatic, revolute, cylindrical or sliding"),
+        ({"static_coefficient": None, "static": 1.0}, "revolute", "go with 'static_coefficient'"),
+        ({"radius": None}, "revolute", "needs the key 'radius'"),
+        ({"length": None}, "revolute", "needs the key 'length'"),
+        ({"static_coefficient": None}, "revolute", "either 'static'"),
+        ({"kinetic_coefficient": 0.3}, "revolute", "must not be above"),
+        ({"coordinate": "angle"}, "universal", "prismatic, revolute, cylindrical or sliding"),
     ],
 )
-def test_friction_that_lacks_something_is_refused(old: str, new: str, message: str) -> None:
-    text = PENDULUM.replace(old, new).replace("MOTION", "rigid").replace("SOLVER", "")
-    if '"universal"' in new:
-        text = text.replace('joint = "hinge"', 'joint = "hinge"\ncoordinate = "angle"')
+def test_friction_that_lacks_something_is_refused(keys: Table, kind: str, message: str) -> None:
+    tables = arm("rigid", **{"radius_axial": 0.0, **keys})
+    tables["joint"][0]["type"] = kind
     with pytest.raises(CaseError, match=message):
-        run(text.replace("LENGTHS", "length = 0.1\nradius_axial = 0.0"))
+        run_tables(tables)
 
 
 def test_a_reaction_shared_with_redundant_rows_is_refused() -> None:
-    text = PENDULUM.replace("MOTION", "rigid").replace("SOLVER", "")
-    text = text.replace("LENGTHS", "length = 0.1\nradius_axial = 0.0")
-    second = text[text.index("[[joint]]") : text.index("[[force]]")].replace('"hinge"', '"second"')
-    second = second.replace("point = [0.0, 0.0, 0.0]", "point = [0.0, 0.4, 0.0]")
+    second = joint("second", "revolute", "ground", "arm", [0.0, 0.4, 0.0], Y)
     with pytest.raises(CaseError, match=r"joint 'hinge' is not known.*redundant.*'second'"):
-        run(text.replace("[[force]]", second + "[[force]]"))
+        run_tables(arm("rigid", second, radius_axial=0.0))

@@ -8,19 +8,19 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.scenes import slide
+from tests.attack.parts import Table, X, Y, body, case, driven, joint
+from tests.verification.blocks import case_of, run_tables
 from tests.verification.test_events import METHODS
 
 import hydrodae
 
 
-def force(type_name: str, name: str, **keys: float) -> str:
-    lines = "".join(f"{key} = {value!r}\n" for key, value in keys.items())
-    return f'[[force]]\ntype = "{type_name}"\nname = "{name}"\njoint = "slide"\n{lines}'
+def force(type_name: str, name: str, **keys: float) -> Table:
+    return {"type": type_name, "name": name, "joint": "slide", **keys}
 
 
 def cart(
-    forces: str,
+    forces: list[Table],
     method: str,
     end: float,
     step: float,
@@ -30,29 +30,26 @@ def cart(
     mass: float = 1.0,
     start: float = 0.0,
     speed: float = 0.0,
-) -> str:
-    mover = slide(
-        mass=mass,
-        motion=motion,
-        point=[start, 0.0, 0.0],
-        inertia=[1.0, 1.0, 1.0],
+    given: Any = None,
+) -> hydrodae.Results:
+    """Run a cart on a guide under these forces."""
+    initial = dict(displacement=[start, 0.0, 0.0], velocity=[speed, 0.0, 0.0])
+    tables = case(
+        [body("cart", motion, mass, inertia=[1.0] * 3, **initial)],
+        end,
         gravity=gravity,
-        displacement=[start, 0.0, 0.0],
-        velocity=[speed, 0.0, 0.0],
+        joints=[joint("slide", "prismatic", "ground", "cart", axis=X)],
+        forces=forces,
+        output={"step": step},
     )
-    solver = f"[solver]\nend_time = {end!r}\nrtol = 1e-8\n{METHODS[method].strip()}\n"
-    return f"{mover}{forces}\n{solver}[output]\nstep = {step!r}\n"
-
-
-def run(text: str, **given: Any) -> hydrodae.Results:
-    return hydrodae.run(hydrodae.Case.from_text(text), **given)
+    return hydrodae.run(case_of(tables, rtol=1e-8, **METHODS[method]), forces=given)
 
 
 def column(results: hydrodae.Results, name: str) -> np.ndarray:
     return np.asarray(results[name].values)
 
 
-def spring(stiffness: float) -> str:
+def spring(stiffness: float) -> Table:
     return force("pto_linear", "spring", stiffness=stiffness)
 
 
@@ -62,9 +59,8 @@ def test_coulomb_stop(reference: Path, method: str) -> None:
     data = json.loads((reference / "multibody" / "coulomb_stop.json").read_text())
     p, rows = data["params"], np.array(data["rows"])
     dry = force("dry_friction", "dry", static=p["mu"] * p["N"])
-    text = cart(spring(p["k"]) + dry, method, p["T"], 0.005, mass=p["m"], start=p["x0"])
-    text = text.replace("point = [1.0,", "point = [0.0,")
-    results = run(text)
+    forces = [spring(p["k"]), dry]
+    results = cart(forces, method, p["T"], 0.005, mass=p["m"], start=p["x0"])
     place = column(results, "bodies/cart/position")[:, 0]
     assert np.abs(np.interp(rows[:, 0], results.time, place) - rows[:, 1]).max() < 1e-3
     speed = np.abs(column(results, "joints/slide/displacement_rate"))
@@ -84,8 +80,8 @@ def test_stick_slip_by_a_smooth_law(reference: Path, method: str) -> None:
         mu = p["mu_k"] + (p["mu_s"] - p["mu_k"]) * np.exp(-((slip / p["v_s"]) ** 2))
         return float(p["N"] * mu * np.tanh(slip / p["v_d"]))
 
-    forces = spring(p["k"]) + force("python_load", "belt")
-    results = run(cart(forces, method, p["T"], 0.025, mass=p["m"]), forces={"belt": belt})
+    forces = [spring(p["k"]), force("python_load", "belt")]
+    results = cart(forces, method, p["T"], 0.025, mass=p["m"], given={"belt": belt})
     place = column(results, "bodies/cart/position")[:, 0]
     np.testing.assert_allclose(results.time, rows[:, 0], atol=1e-12)
     assert np.abs(place - rows[:, 1]).max() < 1e-4
@@ -96,28 +92,17 @@ def test_a_rope_snaps(reference: Path, method: str) -> None:
     """Within 1e-3 m, peak tension within 0.5 per cent, taut and slack within 1e-3 s."""
     data = json.loads((reference / "multibody" / "snap_rope.json").read_text())
     p, rows = data["params"], np.array(data["rows"])
-    text = f"""
-[[body]]
-name = "weight"
-motion = "heave"
-mass = {p["m"]}
-center_of_gravity = [0.0, 0.0, {-p["x0"]}]
-[[force]]
-type = "rope"
-name = "rope"
-bodies = ["ground", "weight"]
-points = [[0.0, 0.0, 0.0], [0.0, 0.0, {-p["x0"]}]]
-stiffness = {p["k"] * p["l0"]}
-damping = {p["c"] * p["l0"]}
-length = {p["l0"]}
-[solver]
-end_time = {p["T"]}
-rtol = 1e-8
-{METHODS[method].replace("0.002", "2e-5").replace("0.01", "2e-5")}
-[output]
-step = 0.0005
-"""
-    results = run(text)
+    at = [0.0, 0.0, -p["x0"]]
+    elastic = dict(stiffness=p["k"] * p["l0"], damping=p["c"] * p["l0"], length=p["l0"])
+    ends = dict(bodies=["ground", "weight"], points=[[0.0] * 3, at])
+    tables = case(
+        [body("weight", "heave", p["m"], at)],
+        p["T"],
+        forces=[dict(type="rope", name="rope", **ends, **elastic)],
+        output={"step": 0.0005},
+    )
+    fine = {"step": 2e-5} if "step" in METHODS[method] else {}
+    results = run_tables(tables, rtol=1e-8, **METHODS[method] | fine)
     place = -column(results, "bodies/weight/position")[:, 2]
     assert np.abs(np.interp(rows[:, 0], results.time, place) - rows[:, 1]).max() < 1e-3
     pull = column(results, "forces/rope/tension")
@@ -137,13 +122,9 @@ def endstop(reference: Path) -> Any:
 @pytest.mark.parametrize("method", METHODS)
 def test_turning_points_of_a_rubbing_oscillator(endstop: Any, method: str) -> None:
     p = endstop["coulomb_oscillator"]
-    forces = spring(p["k"]) + force("dry_friction", "dry", static=p["Fc"])
+    forces = [spring(p["k"]), force("dry_friction", "dry", static=p["Fc"])]
     half, end = p["half_period"], 1.2 * p["t_stop"]
-    results = run(
-        cart(forces, method, end, half / 100, mass=p["m"], start=p["x0"]).replace(
-            f"point = [{p['x0']}", "point = [0.0"
-        )
-    )
+    results = cart(forces, method, end, half / 100, mass=p["m"], start=p["x0"])
     place = column(results, "bodies/cart/position")[:, 0]
     turns = np.array(p["turning_points"])
     np.testing.assert_allclose(place[::100][: len(turns)], turns, atol=1e-4)
@@ -155,14 +136,13 @@ def test_turning_points_of_a_rubbing_oscillator(endstop: Any, method: str) -> No
 def test_a_sliding_block_stops(endstop: Any, method: str, kind: str) -> None:
     """By a load of mu m g, and by the reaction of the slide that carries the weight."""
     p = endstop["sliding_block"]
+    moving = dict(mass=2.0, speed=p["v0"])
     if kind == "given":
         dry = force("dry_friction", "dry", static=p["mu"] * 2.0 * p["g"])
-        text = cart(dry, method, 2.0, 0.001, mass=2.0, speed=p["v0"])
+        results = cart([dry], method, 2.0, 0.001, **moving)
     else:
         dry = force("dry_friction", "dry", static_coefficient=p["mu"], length=1.0, radius=0.1)
-        given = {"gravity": p["g"], "motion": "rigid"}
-        text = cart(dry, method, 2.0, 0.001, mass=2.0, speed=p["v0"], **given)
-    results = run(text)
+        results = cart([dry], method, 2.0, 0.001, gravity=p["g"], motion="rigid", **moving)
     place = column(results, "bodies/cart/position")[:, 0]
     assert place[-1] == pytest.approx(p["distance"], rel=1e-5)
     speed = column(results, "joints/slide/displacement_rate")
@@ -170,63 +150,27 @@ def test_a_sliding_block_stops(endstop: Any, method: str, kind: str) -> None:
     assert stopped == pytest.approx(p["t_stop"], abs=2e-3)
 
 
-TILT = """
-[[body]]
-name = "plane"
-motion = "planar"
-mass = 1.0
-center_of_gravity = [0.0, 0.0, 0.0]
-inertia = [1.0, 1.0, 1.0]
-initial = { angular_velocity = [0.0, RATE, 0.0] }
-[[body]]
-name = "block"
-motion = "planar"
-mass = 2.0
-center_of_gravity = [0.0, 0.0, 0.0]
-inertia = [0.1, 0.1, 0.1]
-initial = { angular_velocity = [0.0, RATE, 0.0] }
-[[joint]]
-name = "pivot"
-type = "revolute"
-body_a = "ground"
-body_b = "plane"
-point = [0.0, 0.0, 0.0]
-axis = [0.0, 1.0, 0.0]
-[[constraint]]
-name = "motor"
-type = "coordinate"
-joint = "pivot"
-drive = { rate = RATE }
-[[joint]]
-name = "slide"
-type = "prismatic"
-body_a = "plane"
-body_b = "block"
-point = [0.0, 0.0, 0.0]
-axis = [1.0, 0.0, 0.0]
-[[force]]
-type = "dry_friction"
-name = "dry"
-joint = "slide"
-static_coefficient = STATIC
-kinetic_coefficient = KINETIC
-length = 1.0
-[solver]
-end_time = 27.0
-rtol = 1e-8
-METHOD
-[output]
-step = 0.005
-"""
-
-
 @pytest.mark.parametrize("method", ["ida", "radau", "explicit_rk"])
 def test_a_tilting_plane_lets_go(endstop: Any, method: str) -> None:
     """The weight's part that presses falls as the plane tilts: it slips at tan(alpha) = mu_s."""
     p = endstop["tilting_plane"]
-    text = TILT.replace("RATE", repr(p["rate_rad_s"])).replace("METHOD", METHODS[method].strip())
-    text = text.replace("STATIC", str(p["mu_s"])).replace("KINETIC", str(p["mu_k"]))
-    results = run(text)
+    turn = {"angular_velocity": [0.0, p["rate_rad_s"], 0.0]}
+    law = dict(static_coefficient=p["mu_s"], kinetic_coefficient=p["mu_k"], length=1.0)
+    tables = case(
+        [
+            body("plane", "planar", 1.0, inertia=[1.0] * 3, **turn),
+            body("block", "planar", 2.0, inertia=[0.1] * 3, **turn),
+        ],
+        27.0,
+        joints=[
+            joint("pivot", "revolute", "ground", "plane", axis=Y),
+            joint("slide", "prismatic", "plane", "block", axis=X),
+        ],
+        constraints=[driven("motor", {"rate": p["rate_rad_s"]}, joint="pivot")],
+        forces=[force("dry_friction", "dry", **law)],
+        output={"step": 0.005},
+    )
+    results = run_tables(tables, rtol=1e-8, **METHODS[method])
     speed = column(results, "joints/slide/displacement_rate")
     slips = results.time[np.flatnonzero(np.abs(speed) > 1e-6)[0]]
     assert slips == pytest.approx(p["t_slip"], abs=0.006)
@@ -245,8 +189,7 @@ def test_a_spring_damper_stop(endstop: Any, method: str, case: int) -> None:
     """It lets go where its load is zero: depth, peak force and restitution."""
     p = endstop["end_stop_spring_damper"]["cases"][case]
     stop = force("end_stop", "stop", upper=0.0, stiffness=p["k"], exponent=1.0, viscous=p["c"])
-    text = cart(stop, method, 0.05, 5e-6, mass=p["m"], speed=p["v0"])
-    results = run(text)
+    results = cart([stop], method, 0.05, 5e-6, mass=p["m"], speed=p["v0"])
     place = column(results, "joints/slide/displacement")
     speed = column(results, "joints/slide/displacement_rate")
     load = column(results, "forces/stop/force")

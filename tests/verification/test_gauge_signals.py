@@ -7,21 +7,20 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.python.test_gauges import AHEAD, BUOY, GAUGES, IRREGULAR, LAW, case
+from tests.python.test_gauges import AHEAD, LINE, case, law
 from tests.python.test_tcp import free_port
 from tests.verification.fmu_of_c import write_fmu
 
 import hydrodae
-from hydrodae import Case, Simulation, tcp
+from hydrodae import Simulation, tcp
 from hydrodae.fmu import export
 
 X = "joints/slide/displacement"
 SIGNALS = (AHEAD, "controllers/law/output", X)
-TABLE = LAW.format(type="table", keys="at = [-9.0, 9.0]\nvalue = [-9000.0, 9000.0]")
 
 
 def assert_as_the_kernels_own(found: hydrodae.Results) -> None:
-    own = hydrodae.run(case(IRREGULAR + GAUGES + TABLE))
+    own = hydrodae.run(case(controller=LINE))
     for name in SIGNALS:
         np.testing.assert_allclose(found[name], own[name], rtol=1e-12, atol=1e-9)
 
@@ -36,8 +35,7 @@ def test_over_the_protocol_hotint() -> None:
 
     thread = threading.Thread(target=peer)
     thread.start()
-    keys = f'port = {port}\nprotocol = "hotint"'
-    found = hydrodae.run(case(IRREGULAR + GAUGES + LAW.format(type="tcp", keys=keys)))
+    found = hydrodae.run(case(controller=law("tcp", port=port, protocol="hotint")))
     thread.join(10.0)
     assert_as_the_kernels_own(found)
 
@@ -45,15 +43,10 @@ def test_over_the_protocol_hotint() -> None:
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_an_fmu_reads_them(fmi: int, tmp_path: Path) -> None:
     write_fmu(tmp_path / "pi.fmu", fmi)
-    keys = """file = "pi.fmu"
-fmu_inputs = ["rate"]
-fmu_outputs = ["load"]
-fmu_factors = [-1.0]
-parameters = ["kp", "ki"]
-parameter_values = [1000.0, 0.0]"""
-    more = IRREGULAR + GAUGES + LAW.format(type="fmu", keys=keys)
-    (tmp_path / "case.toml").write_text(BUOY.format(more=more))
-    assert_as_the_kernels_own(hydrodae.run(Case.read(tmp_path / "case.toml")))
+    keys = dict(fmu_inputs=["rate"], fmu_outputs=["load"], fmu_factors=[-1.0])
+    keys |= dict(parameters=["kp", "ki"], parameter_values=[1000.0, 0.0])
+    unit = law("fmu", file="pi.fmu", **keys)
+    assert_as_the_kernels_own(hydrodae.run(case(controller=unit, folder=tmp_path)))
 
 
 def test_an_fmu_of_a_case_tells_them(tmp_path: Path) -> None:
@@ -61,9 +54,9 @@ def test_an_fmu_of_a_case_tells_them(tmp_path: Path) -> None:
     pytest.importorskip("fmpy", reason="needs the extra cosim")
     from tests.verification.fmu_device import Device, problems, simulate
 
-    outside = export(case(IRREGULAR + GAUGES), tmp_path / "a.fmu")
+    outside = export(case(), tmp_path / "a.fmu")
     assert problems(outside) == []
-    run = Simulation(case(IRREGULAR + GAUGES))
+    run = Simulation(case())
     with Device(outside, tmp_path / "a") as device:
         device.begin()
         for k in range(8):
@@ -79,9 +72,9 @@ def test_an_fmu_of_a_case_tells_them(tmp_path: Path) -> None:
         names = ("gauges/with/elevation", "gauges/with/ahead_1", AHEAD)
         told = np.array([float(run.read(name)) for name in names])
         np.testing.assert_allclose(np.array(device.get(*names)), told, rtol=1e-6)
-    inside = export(case(IRREGULAR + GAUGES + TABLE), tmp_path / "b.fmu")
+    inside = export(case(controller=LINE), tmp_path / "b.fmu")
     assert problems(inside) == []
-    own = hydrodae.run(case(IRREGULAR + GAUGES + TABLE))
+    own = hydrodae.run(case(controller=LINE))
     found = simulate(inside, stop_time=6.0, output_interval=0.25, output=[X, AHEAD])
     for name in (X, AHEAD):
         np.testing.assert_array_equal(found[name], own[name])

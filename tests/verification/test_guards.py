@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.attack.parts import body, case, spring
+from tests.verification.blocks import run_tables
 
 import hydrodae
 
@@ -13,51 +15,29 @@ ROOT = Path(__file__).resolve().parents[2]
 BENCHMARKS = ROOT / "cases" / "benchmarks"
 FLAPS = ROOT / "cases" / "f3of" / "flap_decay.toml"
 RATE = 2.0  # rad/s
-OSCILLATOR = f"""
-title = "Mass on a spring, whose lever is 1 m"
-
-[[body]]
-name = "mass"
-motion = "surge"
-mass = 2.0
-center_of_gravity = [0.0, 0.0, 0.0]
-initial.displacement = [1.0, 0.0, 0.0]
-
-[[force]]
-type = "mooring_matrix"
-name = "spring"
-body = "mass"
-stiffness = [{2.0 * RATE**2}, 0.0, 0.0, 0.0, 0.0, 0.0]
-
-[solver]
-end_time = 3.0
-
-[output]
-step = 0.1
-"""
 
 
 @pytest.mark.parametrize("method", ["lobatto_iiic", "gauss"])
 def test_stiff_springs_that_hardly_move_do_not_stop_an_implicit_method(method: str) -> None:
     """A second mass on a spring of 1e6 N/m swings by 1e-5 m at 1000 rad/s: 50 rad a step."""
-    second = OSCILLATOR.split("[solver]")[0].split("[[body]]")[1].replace('mass"', 'second"')
-    spring = (
-        '\n[[force]]\ntype = "spring_damper"\nname = "stiff"\nbody_a = "mass"\nbody_b = "second"\n'
-        "point_a = [0.0, 0.0, 0.0]\npoint_b = [1.0, 0.0, 0.0]\nstiffness = 1.0e6\n"
+    at = [1.0, 0.0, 0.0]
+    lever = dict(type="mooring_matrix", name="spring", body="mass")
+    tables = case(
+        [
+            body(n, "surge", 2.0, x, displacement=at)
+            for n, x in (("mass", [0.0] * 3), ("second", at))
+        ],
+        3.0,
+        forces=[
+            lever | {"stiffness": [2.0 * RATE**2, 0.0, 0.0, 0.0, 0.0, 0.0]},
+            spring("stiff", "mass", "second", [0.0] * 3, at, 1.0e6),
+        ],
+        samples=30,
     )
-    body = "[[body]]" + second.split("[[force]]")[0].replace(
-        "[0.0, 0.0, 0.0]", "[1.0, 0.0, 0.0]", 1
-    )
-    case = hydrodae.Case.from_text(OSCILLATOR.replace("[[force]]", f"{body}\n[[force]]") + spring)
-    values = {"solver.method": method, "solver.step": 0.05}
-    results = hydrodae.run(case, set=values)
+    results = run_tables(tables, method=method, step=0.05)
     both = RATE / np.sqrt(2.0)
-    assert (
-        np.abs(
-            results["bodies/second/position"].values[:, 0] - 1.0 - np.cos(both * results.time)
-        ).max()
-        < 1e-4
-    )
+    place = results["bodies/second/position"].values[:, 0]
+    assert np.abs(place - 1.0 - np.cos(both * results.time)).max() < 1e-4
 
 
 @pytest.mark.parametrize("rtol", [1e-2, 1e-3])

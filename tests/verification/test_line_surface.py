@@ -8,7 +8,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.attack.parts import Table, body, case
 from tests.python.moordyn_decks import FLOAT, PLATFORM
+from tests.verification.blocks import case_of, run_tables
 
 import hydrodae
 from hydrodae.errors import CaseError
@@ -73,44 +75,14 @@ def test_a_part_that_floats_on_the_surface_is_refused() -> None:
         hung(110.0, 0.0, dry_weight=[0.5, 30.0])
 
 
-BODIES = """
-[environment]
-gravity = 0.0
-[[body]]
-name = "low"
-motion = ["surge", "heave"]
-mass = 3e4
-center_of_gravity = [0.0, 0.0, -30.0]
-[[body]]
-name = "high"
-motion = "point"
-mass = 5e4
-center_of_gravity = [60.0, 5.0, 30.0]
-[[force]]
-type = "catenary"
-name = "line"
-body_a = "low"
-body_b = "high"
-point_a = [0.0, 0.0, -30.0]
-point_b = [60.0, 5.0, 30.0]
-length = [40.0, 45.0]
-weight = [200.0, 200.0]
-dry_weight = [600.0, 600.0]
-stiffness = [2e6, 2e6]
-loads = [-2e4]
-dry_loads = [1e4]
-seabed = false
-[solver]
-end_time = 15.0
-rtol = 1e-8
-METHOD
-"""
-
-
 @pytest.mark.parametrize("method", ["radau", "explicit_rk"])
 def test_a_line_through_the_surface_between_two_bodies_keeps_the_energy(method: str) -> None:
-    text = BODIES.replace("METHOD", f'method = "{method}"')
-    run = hydrodae.run(hydrodae.Case.from_text(text))
+    low, high = [0.0, 0.0, -30.0], [60.0, 5.0, 30.0]
+    line = dict(type="catenary", name="line", body_a="low", body_b="high", seabed=False)
+    line |= dict(point_a=low, point_b=high, length=[40.0, 45.0], stiffness=[2e6, 2e6])
+    line |= dict(weight=[200.0] * 2, dry_weight=[600.0] * 2, loads=[-2e4], dry_loads=[1e4])
+    bodies = [body("low", ["surge", "heave"], 3e4, low), body("high", "point", 5e4, high)]
+    run = run_tables(case(bodies, 15.0, gravity=0.0, forces=[line]), method=method, rtol=1e-8)
     total, kinetic = run["energy/total"].values, run["energy/kinetic"].values
     assert np.ptp(total) < 1e-6 * kinetic.max()
 
@@ -118,30 +90,18 @@ def test_a_line_through_the_surface_between_two_bodies_keeps_the_energy(method: 
 def test_a_point_with_a_volume_is_a_sphere_that_floats() -> None:
     """Half in the water: the heave period of a sphere of radius R is 2 pi sqrt(2 R / (3 g))."""
     volume = 4.0
-    text = f"""
-[environment]
-water_density = 1025.0
-[[body]]
-name = "float"
-motion = "point"
-mass = {0.5 * 1025.0 * volume}
-volume = {volume}
-center_of_gravity = [0.0, 0.0, -0.3]
-initial = {{ displacement = [0.0, 0.0, 6.0] }}
-[[force]]
-type = "mooring_matrix"
-name = "stay"
-body = "float"
-stiffness = [1.0, 1.0, 0.0, 0.0, 0.0, 0.0]
-[solver]
-end_time = 4.0
-rtol = 1e-8
-"""
-    case = hydrodae.Case.from_text(text)
-    assert hydrodae.equilibrium(case).offsets["float"][2] == pytest.approx(0.3, abs=1e-8)
+
+    def floating(z: float) -> hydrodae.Case:
+        ball = body("float", "point", 512.5 * volume, [0, 0, z], displacement=[0.0, 0.0, 6.0])
+        stay = dict(type="mooring_matrix", name="stay", body="float", stiffness=[1, 1, 0, 0, 0, 0])
+        water: Table = {"environment": {"water_density": 1025.0}}
+        tables = case([ball | {"volume": volume}], 4.0, forces=[stay], **water)
+        return case_of(tables, rtol=1e-8)
+
+    dropped = floating(-0.3)
+    assert hydrodae.equilibrium(dropped).offsets["float"][2] == pytest.approx(0.3, abs=1e-8)
     radius = (0.75 * volume / math.pi) ** (1.0 / 3.0)
-    level = text.replace("-0.3]", "0.0]")
-    period = min(mode.period for mode in LinearModel(hydrodae.Case.from_text(level)).modes())
+    period = min(mode.period for mode in LinearModel(floating(0.0)).modes())
     assert period == pytest.approx(2.0 * math.pi * math.sqrt(2.0 * radius / (3.0 * 9.81)), rel=1e-6)
-    run = hydrodae.run(case)  # dropped from the air
+    run = hydrodae.run(dropped)  # from the air
     assert np.ptp(run["energy/total"].values) < 1e-6 * run["energy/kinetic"].values.max()

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.scenes import pendulum
+from tests.attack.parts import Table, Y, body, case, joint
+from tests.verification.blocks import case_of, run_tables
 
 import hydrodae
 
@@ -12,36 +13,20 @@ GRAVITY = 9.81
 ARM = 1.2  # m, the centre of gravity from the hinge
 TIP = 2.0  # m, the marker from the hinge
 
-PENDULUM = (
-    pendulum(
-        "rod",
-        motion="rigid",
-        mass=3.0,
-        at=[0.0, 0.0, -ARM],
-        inertia=[0.49, 0.5, 0.02],
-        angle_deg=70.0,
-    )
-    + f"""
-[[marker]]
-name = "tip"
-body = "rod"
-point = [0.0, 0.3, {-TIP}]
 
-[[marker]]
-name = "accelerometer"
-body = "rod"
-point = [0.0, 0.3, {-TIP}]
-axes = "body"
-
-[solver]
-end_time = 5.0
-rtol = 1e-9
-"""
-)
+def pendulum(**change: str) -> Table:
+    """Return a rod with markers at its tip, the second of them changed."""
+    hinge = joint("hinge", "revolute", "ground", "rod", axis=Y, initial={"angle_deg": 70.0})
+    tip = dict(body="rod", point=[0.0, 0.3, -TIP])
+    markers = [tip | {"name": "tip"}, tip | {"name": "accelerometer", "axes": "body"} | change]
+    rod = body("rod", "rigid", 3.0, [0.0, 0.0, -ARM], [0.49, 0.5, 0.02])
+    tables = case([rod], 5.0, joints=[hinge], marker=markers)
+    del tables["output"]
+    return tables
 
 
 def test_tip_of_a_pendulum() -> None:
-    results = hydrodae.run(hydrodae.Case.from_text(PENDULUM))
+    results = run_tables(pendulum(), rtol=1e-9)
     angle = results["joints/hinge/angle"].values
     rate = results["joints/hinge/angle_rate"].values
     acceleration = -3.0 * GRAVITY * ARM * np.sin(angle) / (0.5 + 3.0 * ARM**2)
@@ -65,17 +50,13 @@ def test_tip_of_a_pendulum() -> None:
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "message"),
+    ("change", "message"),
     [
-        (
-            'body = "rod"\npoint = [0.0, 0.3',
-            'body = "rot"\npoint = [0.0, 0.3',
-            "did you mean 'rod'",
-        ),
-        ('axes = "body"', 'axes = "bodi"', "did you mean 'body'"),
-        ('name = "accelerometer"', 'name = "tip"', "two marker entries have the name 'tip'"),
+        ({"body": "rot"}, "did you mean 'rod'"),
+        ({"axes": "bodi"}, "did you mean 'body'"),
+        ({"name": "tip"}, "two marker entries have the name 'tip'"),
     ],
 )
-def test_wrong_markers_are_refused(old: str, new: str, message: str) -> None:
+def test_wrong_markers_are_refused(change: Table, message: str) -> None:
     with pytest.raises(hydrodae.CaseError, match=message):
-        hydrodae.Case.from_text(PENDULUM.replace(old, new, 1))
+        case_of(pendulum(**change))

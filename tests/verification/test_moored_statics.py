@@ -7,6 +7,8 @@ import math
 import numpy as np
 import pytest
 from scipy.optimize import brentq, root
+from tests.attack.parts import Table, body, case, spring
+from tests.verification.blocks import case_of
 
 import hydrodae
 from hydrodae.linear import LinearModel
@@ -47,44 +49,22 @@ def force_on_fairlead(d: Array, length: float = LENGTH, w: float = WEIGHT) -> Ar
     return np.array([-pull * d[0] / x, -pull * d[1] / x, -lift_at(pull)])
 
 
-def line(name: str, anchor: Array, fairlead: Array, length: float = LENGTH) -> str:
-    return f"""
-[[force]]
-type = "catenary"
-name = "{name}"
-body_b = "buoy"
-point_a = {anchor.tolist()}
-point_b = {fairlead.tolist()}
-length = [{length!r}]
-weight = [{WEIGHT!r}]
-stiffness = [{EA!r}]
-"""
+def line(name: str, anchor: Array, fairlead: Array, length: float = LENGTH) -> Table:
+    keys = dict(type="catenary", name=name, body_b="buoy", length=[length])
+    ends: Table = dict(point_a=anchor.tolist(), point_b=fairlead.tolist())
+    return {**keys, **ends, "weight": [WEIGHT], "stiffness": [EA]}
 
 
-def scene(load: Array, lines: str, *, motion: str = '"point"', stiff: float = 5e5) -> str:
+def scene(
+    load: Array, lines: list[Table], *, motion: str = "point", stiff: float = 5e5
+) -> hydrodae.Case:
     """A buoy at the origin that floats with a stiffness, its weight borne, under a load."""
-    lift = load + np.array([0.0, 0.0, 2e5 * 9.81])
-    return f"""
-[[body]]
-name = "buoy"
-motion = {motion}
-mass = 2e5
-center_of_gravity = [0.0, 0.0, 0.0]
-inertia = [1e7, 1e7, 1e7]
-[[force]]
-type = "constant_load"
-name = "current"
-body = "buoy"
-force = {lift.tolist()}
-[[force]]
-type = "mooring_matrix"
-name = "water"
-body = "buoy"
-stiffness = [0.0, 0.0, {stiff}, 5e7, 5e7, 0.0]
-{lines}
-[solver]
-end_time = 1.0
-"""
+    lift = (load + np.array([0.0, 0.0, 2e5 * 9.81])).tolist()
+    current = dict(type="constant_load", name="current", body="buoy", force=lift)
+    diagonal = [0.0, 0.0, stiff, 5e7, 5e7, 0.0]
+    water: Table = dict(type="mooring_matrix", name="water", body="buoy", stiffness=diagonal)
+    buoy = body("buoy", motion, 2e5, inertia=[1e7] * 3)
+    return case_of(case([buoy], 1.0, forces=[current, water, *lines]))
 
 
 @pytest.mark.parametrize("load", [1e4, 1e5, 4e5, 2e6])
@@ -92,8 +72,8 @@ end_time = 1.0
 def test_single_point_mooring(load: float, start: float) -> None:
     """H is the load, whatever the start: slack at 300 m, taut at 397 m from the anchor."""
     anchor = np.array([-start, 0.0, -50.0])
-    text = scene(np.array([load, 0.0, 0.0]), line("bow", anchor, np.zeros(3)))
-    found = hydrodae.equilibrium(hydrodae.Case.from_text(text))
+    lines = [line("bow", anchor, np.zeros(3))]
+    found = hydrodae.equilibrium(scene(np.array([load, 0.0, 0.0]), lines))
 
     def off(heave: float) -> float:  # the line pulls the buoy down until the water bears it
         lift = -5e5 * heave
@@ -133,14 +113,13 @@ def load_of_spread(at: Array) -> Array:
 
 def test_spread_mooring() -> None:
     """Symmetric; load and stiffness of the independent equations, by differences."""
-    lines = "".join(line(f"line{k}", *ends) for k, ends in enumerate(spread()))
-    found = hydrodae.equilibrium(
-        hydrodae.Case.from_text(scene(np.zeros(3), lines, motion='"rigid"'))
-    )
+    lines = [line(f"line{k}", *ends) for k, ends in enumerate(spread())]
+    moored = scene(np.zeros(3), lines, motion="rigid")
+    found = hydrodae.equilibrium(moored)
     tensions = [found.tensions[f"forces/line{k}/tension"] for k in range(3)]
     assert tensions == pytest.approx([tensions[0]] * 3, rel=1e-9)
     own = [hold for hold in found.moorings if hold.name != "water"]
-    model = LinearModel(hydrodae.Case.from_text(scene(np.zeros(3), lines, motion='"rigid"')))
+    model = LinearModel(moored)
     stiffness = mooring_stiffness(model, own).of("buoy")
     at = np.concatenate([found.offsets["buoy"], found.rotations["buoy"]])
     assert mooring_stiffness(model, own).load_of("buoy") == pytest.approx(
@@ -166,10 +145,8 @@ def test_random_scenes(seed: int) -> None:
     radius, lengths = rng.uniform(300.0, 395.0, count), rng.uniform(380.0, 420.0, count)
     anchors = np.stack([radius * np.cos(angles), radius * np.sin(angles), np.full(count, -50.0)], 1)
     load = np.append(rng.normal(size=2), 0.0) * 10.0 ** rng.uniform(4.0, 6.0)
-    lines = "".join(
-        line(f"line{k}", anchors[k], np.zeros(3), float(lengths[k])) for k in range(count)
-    )
-    found = hydrodae.equilibrium(hydrodae.Case.from_text(scene(load, lines))).offsets["buoy"]
+    lines = [line(f"line{k}", anchors[k], np.zeros(3), float(lengths[k])) for k in range(count)]
+    found = hydrodae.equilibrium(scene(load, lines)).offsets["buoy"]
 
     def forces(at: Array) -> Array:
         total = load - [0.0, 0.0, 5e5 * at[2]]
@@ -185,30 +162,14 @@ def test_random_scenes(seed: int) -> None:
 
 def test_ropes_from_slack_to_taut() -> None:
     """Nothing holds the start: the equilibrium is 12 m away, where two slack ropes come taut."""
-    text = """
-[[body]]
-name = "buoy"
-motion = ["surge", "sway"]
-mass = 1e4
-center_of_gravity = [0.0, 0.0, 0.0]
-[[force]]
-type = "constant_load"
-name = "current"
-body = "buoy"
-force = [2e3, 0.0, 0.0]
-""" + "".join(
-        f"""
-[[force]]
-type = "rope"
-name = "rope{side}"
-bodies = ["ground", "buoy"]
-points = [[-20.0, {side}.0, 0.0], [0.0, 0.0, 0.0]]
-stiffness = 1e7
-length = 33.0
-"""
+    current = dict(type="constant_load", name="current", body="buoy", force=[2e3, 0.0, 0.0])
+    rope: Table = dict(type="rope", bodies=["ground", "buoy"], stiffness=1e7, length=33.0)
+    ropes = [
+        {**rope, "name": f"rope{side}", "points": [[-20.0, side, 0.0], [0.0] * 3]}
         for side in (-8, 8)
-    )
-    found = hydrodae.equilibrium(hydrodae.Case.from_text(text + "[solver]\nend_time = 1.0\n"))
+    ]
+    buoy = body("buoy", ["surge", "sway"], 1e4)
+    found = hydrodae.equilibrium(case_of(case([buoy], 1.0, forces=[current, *ropes])))
 
     def off(x: float) -> float:
         length = math.hypot(x, 8.0)
@@ -222,10 +183,10 @@ length = 33.0
 def test_no_equilibrium_is_one_clear_message() -> None:
     """Heavier than its buoyancy, it goes down to the seabed, of which the line knows nothing."""
     anchor = np.array([-385.0, 0.0, -50.0])
-    text = scene(np.array([0.0, 0.0, -1e6]), line("bow", anchor, np.zeros(3)), stiff=0.0)
+    sinking = scene(np.array([0.0, 0.0, -1e6]), [line("bow", anchor, np.zeros(3))], stiff=0.0)
     message = r"no static equilibrium near the start: catenary 'bow': end B is .* m below the"
     with pytest.raises(hydrodae.CaseError, match=message):
-        hydrodae.equilibrium(hydrodae.Case.from_text(text))
+        hydrodae.equilibrium(sinking)
 
 
 @pytest.mark.parametrize(("x", "z"), [(200.0, 60.0), (255.0, 30.0), (264.0, 60.0), (270.0, 60.0)])
@@ -258,68 +219,36 @@ def test_a_part_that_sags_to_the_bed_is_no_line() -> None:
         hydrodae.catenary(60.0, 5.0, (40.0, 60.0), (WEIGHT,) * 2, (EA,) * 2, loads=[-6e4])
 
 
-HANGING = """
-[[body]]
-name = "load"
-motion = "point"
-mass = 1.0
-center_of_gravity = [3.0, 5.0, -10.0]
-[[force]]
-type = "mooring_matrix"
-name = "soft"
-body = "load"
-stiffness = [0.5, 0.5, 0.5, 0.0, 0.0, 0.0]
-[[force]]
-type = "constant_load"
-name = "wind"
-body = "load"
-force = [0.0, 0.3, 0.0]
-[[force]]
-type = "rope"
-name = "rope"
-bodies = ["ground", "load"]
-points = [[3.0, 5.0, -5.0], [3.0, 5.0, -10.0]]
-length = 4.9
-stiffness = {stiffness}
-[solver]
-end_time = 1.0
-"""
+def hanging(stiffness: float) -> hydrodae.Case:
+    """A load on a rope between soft springs, in a wind."""
+    at = [3.0, 5.0, -10.0]
+    springs = [0.5, 0.5, 0.5, 0.0, 0.0, 0.0]
+    ends: Table = dict(bodies=["ground", "load"], points=[[3.0, 5.0, -5.0], at])
+    forces = [
+        dict(type="mooring_matrix", name="soft", body="load", stiffness=springs),
+        dict(type="constant_load", name="wind", body="load", force=[0.0, 0.3, 0.0]),
+        dict(type="rope", name="rope", length=4.9, stiffness=stiffness, **ends),
+    ]
+    return case_of(case([body("load", "point", 1.0, at)], 1.0, forces=forces))
 
 
 def test_soft_springs_hold_beside_a_rope_that_hardly_gives() -> None:
     """Pivots below 1e-12 of the largest were those of directions that nothing holds."""
-    pose = hydrodae.equilibrium(hydrodae.Case.from_text(HANGING.format(stiffness=2e13)))
+    pose = hydrodae.equilibrium(hanging(2e13))
     aside, below = pose.offsets["load"][1:]
     assert math.hypot(aside, 5.0 - below) == pytest.approx(4.9, abs=1e-6)
     assert aside == pytest.approx(0.3 / (G / 4.9 + 0.5), rel=0.02)
 
 
 def test_a_rope_whose_rounding_is_a_load_is_told() -> None:
-    case = hydrodae.Case.from_text(HANGING.format(stiffness=5e17))
     with pytest.raises(hydrodae.CaseError, match=r"heave of body 'load' .* rounding in the last"):
-        hydrodae.equilibrium(case)
+        hydrodae.equilibrium(hanging(5e17))
 
 
 def test_buoyancy_of_a_volume_is_no_mooring() -> None:
-    case = hydrodae.Case.from_text("""
-[environment]
-water_density = 1000.0
-[[body]]
-name = "buoy"
-motion = "heave"
-mass = 1000.0
-center_of_gravity = [0.0, 0.0, -5.0]
-volume = 1.5
-[[force]]
-type = "spring_damper"
-name = "tether"
-body_a = "ground"
-body_b = "buoy"
-point_a = [0.0, 0.0, -20.0]
-point_b = [0.0, 0.0, -6.0]
-stiffness = 1e5
-length = 13.9
-[solver]
-end_time = 1.0
-""")
-    assert [hold.name for hold in hydrodae.equilibrium(case).moorings] == ["tether"]
+    buoy = body("buoy", "heave", 1000.0, [0.0, 0.0, -5.0]) | {"volume": 1.5}
+    ends = [0.0, 0.0, -20.0], [0.0, 0.0, -6.0]
+    tether = spring("tether", "ground", "buoy", *ends, 1e5, length=13.9)
+    water: Table = {"environment": {"water_density": 1000.0}}
+    found = hydrodae.equilibrium(case_of(case([buoy], 1.0, forces=[tether], **water)))
+    assert [hold.name for hold in found.moorings] == ["tether"]

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from tests.attack.parts import ORIGIN, Table, Vector, body, case
+from tests.verification.blocks import case_of, run_tables
 
-import hydrodae
 from hydrodae.errors import CaseError
 from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.linear import LinearModel
@@ -15,50 +16,35 @@ from hydrodae.linear import LinearModel
 RHO, GRAVITY = 1000.0, 9.81
 
 
-def point_mass(elements: str, more: str = "", motion: str = "heave", start: str = "") -> str:
-    return f"""
-[environment]
-water_density = {RHO}
-
-[[body]]
-name = "ball"
-motion = "{motion}"
-mass = 50.0
-center_of_gravity = [0.0, 0.0, -40.0]
-{start}
-
-[[morison]]
-name = "water"
-body = "ball"
-point = [0.0, 0.0, -40.0]
-{elements}
-
-{more}
-"""
+#: A wave of 1 m from the west.
+WAVE = dict(name="swell", type="regular", height=2.0, period=7.0, heading_deg=0.0)
 
 
-def mooring(*lines: str) -> str:
-    head = ("[[force]]", 'name = "k"', 'type = "mooring_matrix"', 'body = "ball"')
-    return "\n".join((*head, *lines, ""))
-
-
-def solver(end: float, step: float = 0.1) -> str:
-    return f"[solver]\nend_time = {end}\nrtol = 1e-8\n[output]\nstep = {step}\n"
-
-
-def run(text: str) -> hydrodae.Results:
-    return hydrodae.run(hydrodae.Case.from_text(text))
+def point_mass(
+    elements: Table,
+    end: float,
+    *,
+    motion: Any = "heave",
+    depth: float = 40.0,
+    mooring: Table | None = None,
+    step: float = 0.1,
+    start: Vector = ORIGIN,
+    **more: Any,
+) -> Table:
+    """Return a ball with a Morison element, on a spring if `mooring` has its keys."""
+    at = [0.0, 0.0, -depth]
+    spring = dict(name="k", type="mooring_matrix", body="ball") | (mooring or {})
+    ball = body("ball", motion, 50.0, at, displacement=start)
+    tables = case([ball], end, samples=round(end / step), forces=[spring] if mooring else [])
+    water = dict(name="water", body="ball", point=at) | elements
+    return tables | {"environment": {"water_density": RHO}, "morison": [water]} | more
 
 
 def test_fall_to_terminal_velocity() -> None:
     """(m + rho V Ca) v' = m g - 1/2 rho Cd A v^2 from rest."""
     diameter = 0.3
-    results = run(
-        point_mass(
-            f"diameter = {diameter}\ndrag_coefficient = 0.9\nadded_mass_coefficient = 0.5",
-            solver(4.0),
-        )
-    )
+    element = dict(diameter=diameter, drag_coefficient=0.9, added_mass_coefficient=0.5)
+    results = run_tables(point_mass(element, 4.0), rtol=1e-8)
     drag = 0.5 * RHO * 0.9 * np.pi / 4 * diameter**2
     inertia = 50.0 + 0.5 * RHO * np.pi / 6 * diameter**3
     terminal = np.sqrt(50.0 * GRAVITY / drag)
@@ -72,15 +58,11 @@ def test_fall_to_terminal_velocity() -> None:
 @pytest.mark.parametrize("coefficient", [0.0, 0.5, 1.0])
 def test_added_mass_lengthens_the_period(coefficient: float) -> None:
     volume, stiffness = 0.04, 700.0
-    spring = mooring(f"stiffness = [{stiffness}, 0, 0, 0, 0, 0]")
-    results = run(
-        point_mass(
-            f"volume = {volume}\nadded_mass_coefficient = {coefficient}",
-            spring + solver(10.0),
-            "surge",
-            "initial.displacement = [0.2, 0.0, 0.0]",
-        )
-    )
+    spring = {"stiffness": [stiffness, 0, 0, 0, 0, 0]}
+    element = dict(volume=volume, added_mass_coefficient=coefficient)
+    start = [0.2, 0.0, 0.0]
+    tables = point_mass(element, 10.0, motion="surge", mooring=spring, start=start)
+    results = run_tables(tables, rtol=1e-8)
     omega = np.sqrt(stiffness / (50.0 + RHO * volume * coefficient))
     x = results["bodies/ball/position"].values[:, 0]
     np.testing.assert_allclose(x, 0.2 * np.cos(omega * results.time), atol=1e-6)
@@ -89,15 +71,10 @@ def test_added_mass_lengthens_the_period(coefficient: float) -> None:
 def test_drag_decay_follows_the_energy_balance() -> None:
     """a' = -4/(3 pi) (c/m) w a^2: the work of c |x'| x' over a cycle, 8/3 c w^2 a^3."""
     stiffness, area = 700.0, 0.004
-    spring = mooring(f"stiffness = [{stiffness}, 0, 0, 0, 0, 0]")
-    results = run(
-        point_mass(
-            f"area = {area}\ndrag_coefficient = 1.0",
-            spring + solver(60.0, 0.01),
-            "surge",
-            "initial.displacement = [1.0, 0.0, 0.0]",
-        )
-    )
+    spring = {"stiffness": [stiffness, 0, 0, 0, 0, 0]}
+    element, start = dict(area=area, drag_coefficient=1.0), [1.0, 0.0, 0.0]
+    tables = point_mass(element, 60.0, motion="surge", mooring=spring, start=start, step=0.01)
+    results = run_tables(tables, rtol=1e-8)
     omega, drag = np.sqrt(stiffness / 50.0), 0.5 * RHO * area
     x = results["bodies/ball/position"].values[:, 0]
     v = results["bodies/ball/velocity"].values[:, 0]
@@ -113,46 +90,14 @@ def test_drag_decay_follows_the_energy_balance() -> None:
     np.testing.assert_allclose(work, lost, atol=1e-5 * abs(lost[-1]))
 
 
-PILE = """
-[environment]
-water_density = 1000.0
-{depth}
-
-[sea]
-{sea}
-
-{wave}
-
-[[body]]
-name = "pile"
-motion = "fixed"
-mass = 1.0
-center_of_gravity = [3.0, 1.0, -5.0]
-
-[[body]]
-name = "elsewhere"
-motion = "surge"
-mass = 1.0
-center_of_gravity = [0.0, 0.0, 0.0]
-
-[[morison]]
-name = "water"
-body = "pile"
-point_a = [3.0, 1.0, {bottom}]
-point_b = [3.0, 1.0, 4.0]
-diameter = 0.8
-segments = 480
-surface = "{surface}"
-{elements}
-"""
-WAVE = """
-[[wave]]
-name = "swell"
-type = "regular"
-height = 2.0
-period = 7.0
-heading_deg = 0.0
-"""
+def pile(end: float, step: float, bottom: float = -20.0, **more: Any) -> Table:
+    """Return a fixed pile from `bottom` [m] to 4 m above the water, beside a body that moves."""
+    bodies = [body("pile", "fixed", 1.0, [3.0, 1.0, -5.0]), body("elsewhere", "surge", 1.0)]
+    keys = dict(name="water", body="pile", diameter=0.8, segments=480)
+    member = dict(point_a=[3.0, 1.0, bottom], point_b=[3.0, 1.0, 4.0])
+    element = {**keys, **member, **more.pop("element")}
+    more = {"environment": {"water_density": RHO}, "morison": [element]} | more
+    return case(bodies, end, samples=round(end / step), **more)
 
 
 @pytest.mark.parametrize("depth", [20.0, np.inf])
@@ -161,15 +106,11 @@ def test_pile_in_a_regular_wave(depth: float) -> None:
     a, omega = 1.0, 2 * np.pi / 7.0
     k = float(wavenumber(omega, depth, GRAVITY))
     bottom = -20.0 if np.isfinite(depth) else -160.0
-    text = PILE.format(
-        depth=f"water_depth = {depth}" if np.isfinite(depth) else "",
-        sea="",
-        wave=WAVE,
-        bottom=bottom,
-        surface="mean",
-        elements="drag_coefficient = 1.2\nadded_mass_coefficient = 0.9",
-    )
-    results = run(text + solver(14.0))
+    element = dict(drag_coefficient=1.2, added_mass_coefficient=0.9)
+    tables = pile(14.0, 0.1, bottom, element=element, wave=[WAVE])
+    if np.isfinite(depth):
+        tables["environment"]["water_depth"] = depth
+    results = run_tables(tables, rtol=1e-8)
     if np.isfinite(depth):
         single = 1 / k
         square = (np.sinh(2 * k * depth) + 2 * k * depth) / (4 * k * np.sinh(k * depth) ** 2)
@@ -192,15 +133,8 @@ def test_instantaneous_surface_reaches_the_crest() -> None:
     """Above z = 0 the water moves as at z = 0: the crest adds 1/2 rho Cd D u0^2 eta."""
     forces = {}
     for surface in ("mean", "instantaneous"):
-        text = PILE.format(
-            depth="",
-            sea="",
-            wave=WAVE,
-            bottom=-20.0,
-            surface=surface,
-            elements="drag_coefficient = 1.2",
-        )
-        results = run(text + solver(14.0, 0.05))
+        element = dict(drag_coefficient=1.2, surface=surface)
+        results = run_tables(pile(14.0, 0.05, element=element, wave=[WAVE]), rtol=1e-8)
         forces[surface] = results["forces/water/pile/force"].values[:, 0]
     omega = 2 * np.pi / 7.0
     k = omega**2 / GRAVITY
@@ -214,15 +148,9 @@ def test_instantaneous_surface_reaches_the_crest() -> None:
 
 def test_current_on_an_inclined_member() -> None:
     """Across the axis 1/2 rho Cd D L |u_n| u_n, along it the skin 1/2 rho Cdt pi D L |u_t| u_t."""
-    text = PILE.format(
-        depth="",
-        sea="current = [0.6, 0.3, 0.0]",
-        wave="",
-        bottom=-20.0,
-        surface="mean",
-        elements="drag_coefficient = 1.1\ndrag_axial = 0.02",
-    ).replace("point_b = [3.0, 1.0, 4.0]", "point_b = [9.0, 1.0, -8.0]")
-    results = run(text + solver(1.0))
+    element = dict(drag_coefficient=1.1, drag_axial=0.02, point_b=[9.0, 1.0, -8.0])
+    sea = {"current": [0.6, 0.3, 0.0]}
+    results = run_tables(pile(1.0, 0.1, element=element, sea=sea), rtol=1e-8)
     axis = np.array([6.0, 0.0, 12.0])
     length = np.linalg.norm(axis)
     axis /= length
@@ -245,12 +173,8 @@ def test_current_on_an_inclined_member() -> None:
 
 def test_linear_model_has_added_mass_and_wave_inertia() -> None:
     """A free ball under deep waves: x = e^{kz} rho V (1 + Ca) / (m + rho V Ca) per metre."""
-    text = point_mass(
-        "volume = 0.04\nadded_mass_coefficient = 0.7\ndrag_coefficient = 1.0\narea = 0.1",
-        solver(1.0),
-        "surge",
-    ).replace("-40.0", "-4.0")
-    model = LinearModel(hydrodae.Case.from_text(text))
+    element = dict(volume=0.04, added_mass_coefficient=0.7, drag_coefficient=1.0, area=0.1)
+    model = LinearModel(case_of(point_mass(element, 1.0, motion="surge", depth=4.0)))
     assert any("quadratic drag" in note and "water" in note for note in model.notes)
     omega = np.array([0.5, 1.0, 2.0])
     heading = 0.4
@@ -266,21 +190,20 @@ def test_linear_model_has_added_mass_and_wave_inertia() -> None:
 @pytest.mark.parametrize("depth", [9.0, np.inf])
 def test_time_domain_agrees_with_the_linear_model(depth: float) -> None:
     """A tethered ball in small waves, inertia only."""
-    spring = mooring(
-        "stiffness = [60, 0, 60, 0, 0, 0]",
-        "damping = [40, 0, 40, 0, 0, 0]",
-        "pretension = [0, 0, 490.5, 0, 0, 0]",
+    spring = dict(
+        stiffness=[60, 0, 60, 0, 0, 0],
+        damping=[40, 0, 40, 0, 0, 0],
+        pretension=[0, 0, 490.5, 0, 0, 0],
     )
-    text = point_mass(
-        "volume = 0.04\nadded_mass_coefficient = 0.7", spring + solver(250.0), "planar"
-    ).replace("-40.0", "-4.0")
-    text = text.replace('motion = "planar"', 'motion = ["surge", "heave"]')
+    element = dict(volume=0.04, added_mass_coefficient=0.7)
+    plane = ["surge", "heave"]
+    tables = point_mass(element, 250.0, motion=plane, depth=4.0, mooring=spring)
     if np.isfinite(depth):
-        text = text.replace("[environment]", f"[environment]\nwater_depth = {depth}")
-    wave = WAVE.replace("height = 2.0", "height = 0.002")
-    results = run(text + wave + "[sea]\nramp = 50.0\n")
+        tables["environment"]["water_depth"] = depth
+    wave = {"wave": [WAVE | {"height": 0.002}], "sea": {"ramp": 50.0}}
+    results = run_tables(tables | wave, rtol=1e-8)
     omega = 2 * np.pi / 7.0
-    linear = LinearModel(hydrodae.Case.from_text(text)).response([omega])
+    linear = LinearModel(case_of(tables)).response([omega])
     n = 700  # ten periods
     carrier = 2 / n * np.exp(-1j * omega * results.time[-n:])
     for k, name in ((0, "surge"), (2, "heave")):
@@ -289,25 +212,31 @@ def test_time_domain_agrees_with_the_linear_model(depth: float) -> None:
         assert found == pytest.approx(linear[f"bodies/ball/{name}"][0], rel=2e-3)
 
 
+INERTIA = dict(volume=0.04, added_mass_coefficient=0.5)
+
+
 @pytest.mark.parametrize(
-    ("old", "new", "message"),
+    ("change", "message"),
     [
-        ("volume = 0.04", "", "a point element with inertia needs 'diameter' or 'volume'"),
-        ("volume = 0.04", "volume = 0.04\nsegments = 3", "a point element has no 'segments'"),
-        ('body = "ball"', 'body = "bal"', "did you mean 'ball'"),
-        ("water_density = 1000.0", "", "need the density of the water"),
-        ("added_mass_coefficient = 0.5", "", "neither drag nor inertia"),
-        ("volume = 0.04", "volume = 0.04\nsurface = 'men'", "did you mean 'mean'"),
+        ({"volume": None}, "a point element with inertia needs 'diameter' or 'volume'"),
+        ({"segments": 3}, "a point element has no 'segments'"),
+        ({"body": "bal"}, "did you mean 'ball'"),
+        ({"water_density": None}, "need the density of the water"),
+        ({"added_mass_coefficient": None}, "neither drag nor inertia"),
+        ({"surface": "men"}, "did you mean 'mean'"),
     ],
 )
-def test_mistakes(old: str, new: str, message: str) -> None:
-    text = point_mass("volume = 0.04\nadded_mass_coefficient = 0.5", solver(1.0))
-    assert text.count(old) == 1
+def test_mistakes(change: Table, message: str) -> None:
+    tables = point_mass(INERTIA, 1.0)
+    where = tables["environment"] if "water_density" in change else tables["morison"][0]
+    where |= change
+    for key in [key for key, value in where.items() if value is None]:
+        del where[key]
     with pytest.raises(CaseError, match=r"<case>|\d+:\d+") as error:
-        hydrodae.Case.from_text(text.replace(old, new))
+        case_of(tables)
     assert message in str(error.value)
 
 
-def test_check_tells_the_cost(tmp_path: Path) -> None:
-    text = point_mass("volume = 0.04\nadded_mass_coefficient = 0.5", WAVE + solver(1.0))
-    assert "1 wave components at 1 points that move" in hydrodae.Case.from_text(text).examine()
+def test_check_tells_the_cost() -> None:
+    examined = case_of(point_mass(INERTIA, 1.0, wave=[WAVE])).examine()
+    assert "1 wave components at 1 points that move" in examined

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
+from tests.attack.parts import Table, body, case, joint
+from tests.verification.blocks import run_tables
 
 import hydrodae
 
@@ -16,29 +20,15 @@ def wire() -> np.ndarray:
     return np.column_stack([x, 0.0 * x, 0.4 * x**2])
 
 
-def bead_on(carrier: str, extra: str = "") -> str:
-    points = [list(map(float, p)) for p in wire()]
-    return f"""
-[[body]]
-name = "bead"
-motion = "point"
-mass = 2.0
-center_of_gravity = [1.5, 0.0, 0.9]
-{extra}
-[[joint]]
-name = "wire"
-type = "path"
-body_a = "{carrier}"
-body_b = "bead"
-point = [1.5, 0.0, 0.9]
-path = {points}
+AT = [1.5, 0.0, 0.9]
 
-[solver]
-end_time = 4.0
-rtol = 1e-9
-[output]
-step = 0.05
-"""
+
+def bead_on(carrier: str, *bodies: Table, end: float = 4.0, **wire_keys: Any) -> hydrodae.Results:
+    """Run a bead on the wire, which a body or the ground carries."""
+    path = joint("wire", "path", carrier, "bead", AT, path=wire().tolist(), **wire_keys)
+    bead = body("bead", "point", 2.0, AT)
+    tables = case([bead, *bodies], end, joints=[path], output={"step": 0.05})
+    return run_tables(tables, rtol=1e-9)
 
 
 def exact(time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -57,7 +47,7 @@ def exact(time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def test_bead_slides_on_a_wire() -> None:
-    results = hydrodae.run(hydrodae.Case.from_text(bead_on("ground")))
+    results = bead_on("ground")
     place, _ = exact(results.time)
     ours = results["bodies/bead/position"].values
     np.testing.assert_allclose(ours[:, [0, 2]], place, atol=2e-6)
@@ -71,7 +61,7 @@ def test_bead_slides_on_a_wire() -> None:
 
 
 def test_displacement_is_the_arc_length() -> None:
-    results = hydrodae.run(hydrodae.Case.from_text(bead_on("ground")))
+    results = bead_on("ground")
     speed = np.linalg.norm(results["bodies/bead/velocity"].values, axis=1)
     rate = results["joints/wire/displacement_rate"].values
     np.testing.assert_allclose(abs(rate), speed, atol=1e-9)
@@ -84,16 +74,8 @@ def test_displacement_is_the_arc_length() -> None:
 
 def test_start_by_arc_length_and_a_wire_that_falls_with_its_bead() -> None:
     """Carried by a body in free fall the bead keeps its place; started 1 m along the wire."""
-    carrier = """
-[[body]]
-name = "frame"
-mass = 5.0
-center_of_gravity = [0.3, 0.1, -0.2]
-inertia = [1.0, 1.2, 0.9]
-"""
-    text = bead_on("frame").replace("[solver]", carrier + "\n[solver]")
-    text = text.replace("point = [1.5", "initial.displacement = 1.0\npoint = [1.5")
-    results = hydrodae.run(hydrodae.Case.from_text(text), set={"solver.end_time": 1.0})
+    frame = body("frame", "rigid", 5.0, [0.3, 0.1, -0.2], [1.0, 1.2, 0.9])
+    results = bead_on("frame", frame, end=1.0, initial={"displacement": 1.0})
     np.testing.assert_allclose(results["joints/wire/displacement"].values, 1.0, atol=1e-6)
     fall = -0.5 * GRAVITY * results.time**2
     height = results["bodies/bead/position"].values[:, 2]

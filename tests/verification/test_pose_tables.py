@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
+from tests.attack.parts import Table, body, case
 from tests.errors import stopped, wrong
 from tests.verification import hulls
+from tests.verification.blocks import run_tables
 
 import hydrodae
+from hydrodae.case.case import to_toml
 from hydrodae.errors import CaseError
 from hydrodae.hdb import HydroDatabase
 from hydrodae.linear import LinearModel
@@ -57,49 +62,42 @@ def write_tables(folder: Path, poses: Array, *, turns: bool = False) -> None:
         ).write(folder / f"pose{k}.h5")
 
 
-CASE = """
-[hydro]
-database = "hydro.h5"
-radiation = "{radiation}"
-{more}
-[[body]]
-name = "float"
-hydro = "sphere"
-motion = "{motion}"
-mass = 261.8e3
-center_of_gravity = [0.0, 0.0, -2.0]
-inertia = [1.69e6, 1.69e6, 2.6e6]
-mesh = "sphere.obj"
-hydrostatics = "mesh"
-initial = {{ displacement = [0.0, 0.0, {rise!r}] }}
-[solver]
-end_time = {end!r}
-rtol = {rtol!r}
-[output]
-step = 0.05
-"""
-
-
-def write_case(folder: Path, poses: Array, memory: str = "rest", **more: object) -> Path:
-    """Write a case of the sphere with a table over heave."""
-    mesh = hulls.sphere(RADIUS, 12)
-    hulls.write_obj(folder / "sphere.obj", mesh)
-    values = dict(radiation="none", motion="heave", rise=3.0, end=20.0, rtol=1e-9, more="")
-    text = CASE.format(**(values | more))
+def write_case(
+    folder: Path,
+    poses: Array,
+    memory: str = "rest",
+    *,
+    motion: str = "heave",
+    rise: float = 3.0,
+    end: float = 20.0,
+    rtol: float = 1e-9,
+    mass: float = MASS,
+    start: Table | None = None,
+    table: Table | None = None,
+    wave: Sequence[Table] = (),
+    **hydro: Any,
+) -> Path:
+    """Write a case of the sphere with a table over heave; `table` are other keys of it."""
+    hulls.write_obj(folder / "sphere.obj", hulls.sphere(RADIUS, 12))
+    initial = {"displacement": [0.0, 0.0, rise]} | (start or {})
+    sphere = body("float", motion, mass, [0.0, 0.0, CENTER], [1.69e6, 1.69e6, 2.6e6], **initial)
+    sphere |= {"hydro": "sphere", "mesh": "sphere.obj", "hydrostatics": "mesh"}
+    water = {"database": "hydro.h5", "radiation": "none", **hydro}
+    tables = case([sphere], end, hydro=water, output={"step": 0.05})
+    if wave:
+        tables["wave"] = list(wave)
     if poses.size:
-        files = ", ".join(f'"pose{k}.h5"' for k in range(poses.size))
-        text += f"""
-[[pose_table]]
-name = "depth"
-body = "float"
-coordinate = "heave"
-values = {poses.tolist()}
-databases = [{files}]
-memory = "{memory}"
-"""
+        files = [f"pose{k}.h5" for k in range(poses.size)]
+        one: Table = dict(name="depth", body="float", coordinate="heave", values=poses.tolist())
+        one |= dict(databases=files, memory=memory) | (table or {})
+        tables["pose_table"] = [{key: value for key, value in one.items() if value is not None}]
+    tables["solver"]["rtol"] = rtol
     path = folder / "case.toml"
-    path.write_text(text)
+    path.write_text("".join(f"{key} = {to_toml(value, key)}\n" for key, value in tables.items()))
     return path
+
+
+SWELL = dict(name="swell", type="regular", period=7.0, height=1.0)
 
 
 def heave(results: hydrodae.Results) -> Array:
@@ -237,12 +235,9 @@ def test_equal_tables_are_one_database(tmp_path: Path, radiation: str) -> None:
         body = rest.bodies["sphere"]
         moved = replace(body, reference_point=body.reference_point + np.array([0.0, 0.0, pose]))
         replace(rest, bodies={"sphere": moved}).write(tmp_path / f"pose{k}.h5")
-    more = dict(
-        radiation=radiation,
-        motion="planar",
-        more=("frequency = 1.3\n" if radiation == "constant" else "")
-        + '[[wave]]\nname = "swell"\ntype = "regular"\nperiod = 7.0\nheight = 1.0\n',
-    )
+    more: Table = dict(radiation=radiation, motion="planar", wave=[SWELL])
+    if radiation == "constant":
+        more["frequency"] = 1.3
     if radiation == "exponential":
         more["motion"] = "heave"
     one = hydrodae.run(write_case(tmp_path, np.array([]), **more))
@@ -269,34 +264,30 @@ def test_a_pose_beyond_the_table_ends_the_run(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "message"),
+    ("table", "hydro", "message"),
     [
-        (('coordinate = "heave"', 'coordinate = "pitch"'), "values_deg"),
-        (("values = [-1.0,", "values = [2.0,"), "two or more ascending"),
-        (("values = [-1.0, 0.0, 1.0]", "values = [-1.0, 0.0]"), "give one for each"),
-        (("values = [-1.0, 0.0,", "values = [-1.0, 0.5,"), "center_of_gravity"),
-        (('body = "float"\n', 'body = "flaot"\n'), "did you mean"),
-        (('"none"', '"convolution"'), "no tables over poses"),
-        (('memory = "rest"', 'memory = "blended"'), "needs radiation"),
+        ({"coordinate": "pitch"}, {}, "values_deg"),
+        ({"values": [2.0, 0.0, 1.0]}, {}, "two or more ascending"),
+        ({"values": [-1.0, 0.0]}, {}, "give one for each"),
+        ({"values": [-1.0, 0.5, 1.0]}, {}, "center_of_gravity"),
+        ({"body": "flaot"}, {}, "did you mean"),
+        ({}, {"radiation": "convolution"}, "no tables over poses"),
+        ({"memory": "blended"}, {}, "needs radiation"),
     ],
 )
-def test_a_wrong_table_is_refused(tmp_path: Path, change: tuple[str, str], message: str) -> None:
+def test_a_wrong_table_is_refused(tmp_path: Path, table: Table, hydro: Table, message: str) -> None:
     poses = np.array([-1.0, 0.0, 1.0])
     write_tables(tmp_path, poses)
-    path = write_case(tmp_path, poses)
-    path.write_text(path.read_text().replace(*change))
     with pytest.raises(CaseError, match=message):
-        hydrodae.run(path)
+        hydrodae.run(write_case(tmp_path, poses, table=table, **hydro))
 
 
 def test_the_frequency_domain_takes_the_tables_at_equilibrium(tmp_path: Path) -> None:
     poses = np.linspace(-4.0, 4.0, 9)
     write_tables(tmp_path, poses)
-    path = write_case(tmp_path, poses, more="")
     # heavier: it floats 1 m deeper
     deeper = RHO * _volume(*hulls.sphere(RADIUS, 12), -1.0)
-    path.write_text(path.read_text().replace("mass = 261.8e3", f"mass = {deeper!r}"))
-    model = LinearModel(path)
+    model = LinearModel(write_case(tmp_path, poses, mass=deeper))
     rest = HydroDatabase.read(tmp_path / "hydro.h5")
     added, _ = model.added(np.array([1.2]))
     i = list(rest.coordinates).index("sphere.heave")
@@ -314,43 +305,23 @@ def test_the_added_mass_of_a_small_sphere_keeps_the_energy(tmp_path: Path, refer
     i = rest.coordinates.index("sphere.heave")
     files, poses = [], radius * rows["z_over_R"]
     for k, (pose, added) in enumerate(zip(poses, rows["A_extrapolated_kg"], strict=True)):
-        table = np.zeros_like(rest.added_mass_inf)
-        table[i, i] = added
+        inf = np.zeros_like(rest.added_mass_inf)
+        inf[i, i] = added
         point = np.array([0.0, 0.0, pose])
-        body = replace(rest.bodies["sphere"], reference_point=point, hydrostatics=None)
+        hull = replace(rest.bodies["sphere"], reference_point=point, hydrostatics=None)
         files.append(f"pose{k}.h5")
         replace(
-            rest, added_mass_inf=table, rho=998.2, bodies={"sphere": body}, memory={}, kernel=None
+            rest, added_mass_inf=inf, rho=998.2, bodies={"sphere": hull}, memory={}, kernel=None
         ).write(tmp_path / files[-1])
     hulls.write_obj(tmp_path / "sphere.obj", hulls.sphere(radius, 12))
     middle = files[int(np.abs(poses).argmin())]
-    path = tmp_path / "case.toml"
-    path.write_text(f"""
-[hydro]
-database = "{middle}"
-radiation = "none"
-[[pose_table]]
-name = "depth"
-body = "ball"
-coordinate = "heave"
-values = {poses.tolist()}
-databases = [{", ".join(f'"{file}"' for file in files)}]
-[[body]]
-name = "ball"
-hydro = "sphere"
-motion = "heave"
-mass = {mass}
-center_of_gravity = [0.0, 0.0, 0.0]
-mesh = "sphere.obj"
-hydrostatics = "mesh"
-initial = {{ displacement = [0.0, 0.0, {0.8 * radius}] }}
-[solver]
-end_time = 4.0
-rtol = 1e-12
-[output]
-step = 0.01
-""")
-    results = hydrodae.run(path)
+    ball = body("ball", "heave", mass, displacement=[0.0, 0.0, 0.8 * radius])
+    ball |= {"hydro": "sphere", "mesh": "sphere.obj", "hydrostatics": "mesh"}
+    table: Table = dict(name="depth", body="ball", coordinate="heave")
+    table |= dict(values=poses.tolist(), databases=files)
+    water = {"database": middle, "radiation": "none"}
+    tables = case([ball], 4.0, hydro=water, pose_table=[table], samples=400)
+    results = run_tables(tables, tmp_path, rtol=1e-12)
     total, kinetic = results["energy/total"].values, results["energy/kinetic"].values
     assert np.ptp(results["bodies/ball/position"].values[:, 2]) > 1.5 * 0.8 * radius
     assert np.abs(total - total[0]).max() < 1e-8 * kinetic.max()
@@ -359,10 +330,11 @@ step = 0.01
 def test_a_table_over_pitch_gives_one_motion_by_all_methods(tmp_path: Path) -> None:
     poses = np.array([-30.0, -10.0, 10.0, 30.0])
     write_tables(tmp_path, poses / 10.0, turns=True)
-    more = 'frequency = 1.3\n[[wave]]\nname = "swell"\ntype = "regular"\nperiod = 7.0\nheight = 1.0'
-    path = write_case(tmp_path, poses, radiation="constant", motion="planar", end=10.0, more=more)
-    text = path.read_text().replace('"heave"\nvalues =', '"pitch"\nvalues_deg =')
-    path.write_text(text.replace("[0.0, 0.0, 3.0]", "[0.0, 0.0, 0.5], rotation_deg = [0, 12, 0]"))
+    turns = dict(coordinate="pitch", values=None, values_deg=poses.tolist())
+    start = {"rotation_deg": [0, 12, 0]}
+    given: Table = dict(motion="planar", rise=0.5, end=10.0, start=start, table=turns)
+    water: Table = dict(radiation="constant", frequency=1.3, wave=[SWELL])
+    path = write_case(tmp_path, poses, **given, **water)
     places = [
         hydrodae.run(path, set={"solver.method": method})["bodies/float/position"].values
         for method in ("explicit_rk", "radau", "ida")
@@ -375,15 +347,9 @@ def test_a_table_over_pitch_gives_one_motion_by_all_methods(tmp_path: Path) -> N
 def test_a_table_of_a_coupled_body_is_refused(tmp_path: Path) -> None:
     folder = ROOT / "cases" / "f3of"
     (tmp_path / "hydro.h5").write_bytes((folder / "hydro.h5").read_bytes())
-    table = """
-[[pose_table]]
-name = "turn"
-body = "flap1"
-coordinate = "pitch"
-values_deg = [-20.0, 20.0]
-databases = ["hydro.h5", "hydro.h5"]
-"""
+    table = dict(name="turn", body="flap1", coordinate="pitch", values_deg=[-20.0, 20.0])
+    text = f"pose_table = [{to_toml(table | {'databases': ['hydro.h5'] * 2})}]\n"
     path = tmp_path / "case.toml"
-    path.write_text((folder / "flap_decay.toml").read_text() + table)
+    path.write_text(text + (folder / "flap_decay.toml").read_text())
     with wrong("pose_table.turn.body"):
         hydrodae.run(path)

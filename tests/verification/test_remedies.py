@@ -7,7 +7,9 @@ import shlex
 from pathlib import Path
 
 import pytest
+from tests.attack.parts import Table, body, case, joint
 from tests.errors import wrong
+from tests.verification.blocks import case_of, run_tables
 
 import hydrodae
 from hydrodae.commands.cli import main
@@ -17,54 +19,26 @@ from hydrodae.linear import LinearModel
 
 
 def test_no_equilibrium_names_the_coordinate_without_stiffness() -> None:
-    text = """
-[[body]]
-name = "weight"
-motion = {motion}
-mass = 1.25
-center_of_gravity = [0, 0, 0]
-inertia = [1, 1, 1]
-[solver]
-start = "equilibrium"
-end_time = 1.0
-"""
+    def run(motion: str) -> None:
+        weight = body("weight", motion, 1.25, inertia=[1, 1, 1])
+        run_tables(case([weight], 1.0), start="equilibrium")
+
     with pytest.raises(hydrodae.CaseError) as error:
-        hydrodae.run(hydrodae.Case.from_text(text.format(motion='"heave"')))
+        run("heave")
     message = str(error.value)
     assert "is off by -12.2625 N;" in message
     assert "no stiffness in heave of body 'weight'" in message
     assert "mooring" in message
     with pytest.raises(hydrodae.CaseError) as error:  # what no force drives is not blamed
-        hydrodae.run(hydrodae.Case.from_text(text.format(motion='"rigid"')))
+        run("rigid")
     assert "no stiffness in heave of body 'weight':" in str(error.value)
 
 
 def test_no_equilibrium_of_joined_bodies_names_all_that_drift() -> None:
-    bodies = "".join(
-        f"""
-[[body]]
-name = "{name}"
-motion = "planar"
-mass = 1.0
-center_of_gravity = [{x}, 0, 0]
-inertia = [1, 1, 1]
-"""
-        for name, x in (("a", 0.0), ("b", 2.0))
-    )
-    text = f"""{bodies}
-[[joint]]
-name = "hinge"
-type = "revolute"
-body_a = "a"
-body_b = "b"
-point = [1, 0, 0]
-axis = [0, 1, 0]
-[solver]
-start = "equilibrium"
-end_time = 1.0
-"""
+    bodies = [body(n, "planar", 1.0, [x, 0, 0], [1, 1, 1]) for n, x in (("a", 0), ("b", 2))]
+    hinge = joint("hinge", "revolute", "a", "b", [1, 0, 0], [0, 1, 0])
     with pytest.raises(hydrodae.CaseError) as error:
-        hydrodae.run(hydrodae.Case.from_text(text))
+        run_tables(case(bodies, 1.0, joints=[hinge]), start="equilibrium")
     assert "no stiffness in heave of body 'a', heave of body 'b':" in str(error.value)
 
 
@@ -151,72 +125,75 @@ def test_the_source_folder_is_one_with_a_project(repository: Path) -> None:
     assert folder is None or (folder / "pyproject.toml").is_file()
 
 
-BODIES = """
-[[body]]
-name = "a"
-mass = 1.0
-center_of_gravity = [0, 0, 0]
-inertia = [1, 1, 1]
-[solver]
-end_time = 1.0
-"""
+ENDS = {"body_a": "ground", "body_b": "a"}
+
+
+def case_with(kind: str, entry: Table) -> hydrodae.Case:
+    """Return the case of one body with one entry more."""
+    return case_of(case([body("a", "rigid", 1.0, inertia=[1, 1, 1])], 1.0) | {kind: [entry]})
 
 
 @pytest.mark.parametrize(
-    ("entry", "own", "foreign"),
+    ("kind", "entry", "own", "foreign"),
     [
         (
-            '[[joint]]\nname = "j"\ntype = "revolute"\nbody_a = "ground"\nbody_b = "a"\npitc = 1.0',
-            ["axis", "axis_x", "initial"],
-            ["pitch", "path", "one_sided"],
+            "joint",
+            {"type": "revolute", **ENDS, "pitc": 1.0},
+            "axis axis_x initial",
+            "pitch path one_sided",
         ),
         (
-            '[[joint]]\nname = "j"\ntype = "distance"\nbody_a = "ground"\nbody_b = "a"\nlenth = 1',
-            ["length", "point_b", "one_sided"],
-            ["axis_x", "pitch", "initial"],
+            "joint",
+            {"type": "distance", **ENDS, "lenth": 1},
+            "length point_b one_sided",
+            "axis_x pitch initial",
         ),
         (
-            '[[constraint]]\nname = "c"\ntype = "stop"\njoint = "j"\nuper = 1.0',
-            ["upper", "lower_deg", "restitution"],
-            ["ratio", "drive", "joint_b", "body"],
+            "constraint",
+            {"type": "stop", "joint": "j", "uper": 1.0},
+            "upper lower_deg restitution",
+            "ratio drive joint_b body",
         ),
         (
-            '[[constraint]]\nname = "c"\ntype = "coupler"\njoint = "j"\nlower = 1.0',
-            ["ratio", "joint_b"],
-            ["upper", "drive", "level"],
+            "constraint",
+            {"type": "coupler", "joint": "j", "lower": 1.0},
+            "ratio joint_b",
+            "upper drive level",
         ),
         (
-            '[[wave]]\nname = "w"\ntype = "regular"\nheigth = 1.0',
-            ["height", "period", "phase_deg"],
-            ["gamma", "taper", "significant_height", "spreading"],
+            "wave",
+            {"type": "regular", "heigth": 1.0},
+            "height period phase_deg",
+            "gamma taper significant_height spreading",
         ),
         (
-            '[[wave]]\nname = "w"\ntype = "jonswap"\nheight = 1.0',
-            ["gamma", "peak_period", "seed"],
-            ["period", "taper", "shape", "phase_deg"],
+            "wave",
+            {"type": "jonswap", "height": 1.0},
+            "gamma peak_period seed",
+            "period taper shape phase_deg",
         ),
         (
-            '[[force]]\nname = "f"\ntype = "pto_linear"\nbody = "a"',
-            ["damping", "delay", "joint"],
-            ["pretension", "quadratic", "static", "point_a"],
+            "force",
+            {"type": "pto_linear", "body": "a"},
+            "damping delay joint",
+            "pretension quadratic static point_a",
         ),
     ],
 )
 def test_messages_list_the_keys_of_the_own_type_only(
-    entry: str, own: list[str], foreign: list[str]
+    kind: str, entry: Table, own: str, foreign: str
 ) -> None:
     with pytest.raises(hydrodae.CaseError) as error:
-        hydrodae.Case.from_text(entry + "\n" + BODIES)
+        case_with(kind, {"name": "n", **entry})
     listed = re.split(r"valid: |it has: ", str(error.value))[-1]
     words = set(re.findall(r"\w+", listed))
-    assert set(own) <= words, str(error.value)
-    assert not set(foreign) & words, str(error.value)
+    assert set(own.split()) <= words, str(error.value)
+    assert not set(foreign.split()) & words, str(error.value)
 
 
 def test_an_unknown_type_is_told_before_its_keys() -> None:
-    entry = '[[joint]]\nname = "j"\ntype = "revolut"\nbody_a = "ground"\nbody_b = "a"\n'
     with wrong("joint.j.type"):
-        hydrodae.Case.from_text(entry + BODIES)
+        case_with("joint", {"name": "j", "type": "revolut", **ENDS})
 
 
 def test_frequency_domain_notes_what_it_leaves_out(repository: Path) -> None:

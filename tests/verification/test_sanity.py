@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import shutil
+import tomllib
 from pathlib import Path
 
 import pytest
+from tests.attack.parts import Table, Vector, X, Y, Z, body, driven, joint
+from tests.attack.parts import case as made
 from tests.verification import attenuator, hulls
+from tests.verification.blocks import case_of
 from tests.verification.sanity_scenes import (
-    FLAP,
     MASS,
     PTO,
     complaints,
     flap,
+    flap_alone,
     pole,
     run_notes,
     sphere,
@@ -98,35 +102,22 @@ def test_a_hinged_flap_may_be_buoyant_but_not_a_thousand_times(repository: Path)
 
 def test_a_float_on_a_vertical_guide_floats_freely(repository: Path) -> None:
     """A prismatic joint along z holds no weight, one across does."""
-    guide = """
-[[joint]]
-name = "guide"
-type = "prismatic"
-body_a = "ground"
-body_b = "sphere"
-point = [0.0, 0.0, -2.0]
-axis = {axis}
-"""
-    up = sphere(repository, mass=261.8, motion='"rigid"', more=guide.format(axis="[0, 0, 1]"))
+
+    def guide(axis: Vector) -> list[Table]:
+        return [joint("guide", "prismatic", "ground", "sphere", [0.0, 0.0, -2.0], axis)]
+
+    up = sphere(repository, mass=261.8, motion="rigid", joint=guide(Z))
     assert any("floats freely" in line for line in complaints(up))
-    across = sphere(
-        repository, mass=0.5 * MASS, motion='"rigid"', more=guide.format(axis="[1, 0, 0]")
-    )
+    across = sphere(repository, mass=0.5 * MASS, motion="rigid", joint=guide(X))
     assert "held vertically" in across.examine()
     assert not any("floats freely" in line for line in complaints(across))
 
 
 def test_a_mooring_with_pretension_is_part_of_the_balance(repository: Path) -> None:
     missing = 9.81 * 0.4 * MASS
-    mooring = f"""
-[[force]]
-type = "mooring_matrix"
-name = "tether"
-body = "sphere"
-stiffness = [0, 0, 1.0e3, 0, 0, 0]
-pretension = [0, 0, {-missing}, 0, 0, 0]
-"""
-    assert complaints(sphere(repository, mass=0.6 * MASS, more=mooring)) == []
+    tether: Table = dict(type="mooring_matrix", name="tether", body="sphere")
+    tether |= dict(stiffness=[0, 0, 1.0e3, 0, 0, 0], pretension=[0, 0, -missing, 0, 0, 0])
+    assert complaints(sphere(repository, mass=0.6 * MASS, forces=[tether])) == []
     assert complaints(sphere(repository, mass=0.6 * MASS)) != []
 
 
@@ -138,7 +129,7 @@ def test_bodies_that_are_joined_balance_together(repository: Path) -> None:
 
 
 def test_inertia_in_another_unit_than_the_mass(repository: Path) -> None:
-    (text,) = complaints(flap(repository, inertia="[1.0e5, 1.3e3, 1.0e5]"))
+    (text,) = complaints(flap(repository, inertia=[1.0e5, 1.3e3, 1.0e5]))
     assert "radius of gyration of 0.08516 m" in text
     assert "are both in kg" in text
 
@@ -154,26 +145,20 @@ def test_a_body_that_capsizes(repository: Path, tmp_path: Path) -> None:
     assert own is not None
     low = replace(own, center_of_buoyancy=own.center_of_buoyancy * [1, 1, 0] + [0, 0, -8.0])
     db.with_hydrostatics({"flap1": low}).write(tmp_path / "hydro.h5")
-    text = FLAP.format(
-        motion='"planar"',
-        mass=1025 * own.displaced_volume,
-        inertia="[1.0e8, 1.3e6, 1.0e8]",
-        more="",
-    )
-    case = hydrodae.Case.from_text(text, directory=tmp_path)
+    case = case_of(flap_alone(1025 * own.displaced_volume), tmp_path)
     assert any("capsizes: its pitch stiffness is -" in line for line in complaints(case))
     assert any("capsizes" in note for note in run_notes(case))
 
 
 def test_a_joint_far_from_its_body(repository: Path) -> None:
-    case = flap(repository, point="[-12.5, 0.0, 490.0]")
+    case = flap(repository, point=[-12.5, 0.0, 490.0])
     (text,) = (line for line in complaints(case) if "joint 'hinge'" in line)
     assert "is 496 m from the centre of gravity of body 'flap'" in text
     assert any("joint 'hinge'" in note for note in run_notes(case))
 
 
 def test_a_point_that_is_not_in_world_axes_is_worth_a_look(repository: Path) -> None:
-    case = flap(repository, point="[12.5, 0.0, -9.0]")
+    case = flap(repository, point=[12.5, 0.0, -9.0])
     assert "look at: joint 'hinge' is 25.2 m from the centre of gravity" in case.examine()
     assert not any("joint 'hinge'" in note for note in run_notes(case))
 
@@ -187,146 +172,74 @@ def test_below_the_sea_bed() -> None:
 
 def test_a_take_off_at_a_dead_point_is_not_locked() -> None:
     """Two equal bars in line: the slide of a crank does not move there, but beside it."""
-    text = """
-[environment]
-gravity = 0.0
-[[body]]
-name = "crank"
-motion = "planar"
-mass = 1.0
-center_of_gravity = [0.5, 0, 0]
-inertia = [0.1, 0.1, 0.1]
-initial.angular_velocity = [0, 1, 0]
-initial.velocity = [0, 0, -0.5]
-[[body]]
-name = "rod"
-motion = "planar"
-mass = 1.0
-center_of_gravity = [2.0, 0, 0]
-inertia = [0.4, 0.4, 0.4]
-[[body]]
-name = "piston"
-motion = "surge"
-mass = 1.0
-center_of_gravity = [3.0, 0, 0]
-[[joint]]
-name = "main"
-type = "revolute"
-body_a = "ground"
-body_b = "crank"
-point = [0, 0, 0]
-axis = [0, 1, 0]
-[[joint]]
-name = "pin"
-type = "revolute"
-body_a = "crank"
-body_b = "rod"
-point = [1, 0, 0]
-axis = [0, 1, 0]
-[[joint]]
-name = "wrist"
-type = "revolute"
-body_a = "piston"
-body_b = "rod"
-point = [3, 0, 0]
-axis = [0, 1, 0]
-[[joint]]
-name = "slide"
-type = "prismatic"
-body_a = "ground"
-body_b = "piston"
-point = [3, 0, 0]
-axis = [1, 0, 0]
-[[force]]
-name = "pto"
-type = "pto_linear"
-joint = "slide"
-damping = 1.0
-[solver]
-end_time = 1.0
-"""
-    assert complaints(hydrodae.Case.from_text(text)) == []
+    ends = [[0, 0, 0], [1, 0, 0], [3, 0, 0]]
+    start = dict(angular_velocity=[0, 1, 0], velocity=[0, 0, -0.5])
+    tables = made(
+        [
+            body("crank", "planar", 1.0, [0.5, 0, 0], [0.1] * 3, **start),
+            body("rod", "planar", 1.0, [2.0, 0, 0], [0.4] * 3),
+            body("piston", "surge", 1.0, ends[2]),
+        ],
+        1.0,
+        gravity=0.0,
+        joints=[
+            joint("main", "revolute", "ground", "crank", ends[0], Y),
+            joint("pin", "revolute", "crank", "rod", ends[1], Y),
+            joint("wrist", "revolute", "piston", "rod", ends[2], Y),
+            joint("slide", "prismatic", "ground", "piston", ends[2], X),
+        ],
+        forces=[dict(name="pto", type="pto_linear", joint="slide", damping=1.0)],
+    )
+    assert complaints(case_of(tables)) == []
 
 
 def test_a_take_off_along_a_locked_motion(repository: Path) -> None:
-    fixed = """
-[[joint]]
-name = "weld"
-type = "fixed"
-body_a = "ground"
-body_b = "flap"
-point = [-12.5, 0.0, -9.0]
-"""
-    assert complaints(flap(repository, more=PTO)) == []
-    case = flap(repository, more=PTO + fixed)
+    weld = joint("weld", "fixed", "ground", "flap", [-12.5, 0.0, -9.0])
+    assert complaints(flap(repository, forces=[PTO])) == []
+    case = flap(repository, forces=[PTO], joint_beside=weld)
     (text,) = complaints(case)
     assert "force 'pto' acts along angle of joint 'hinge', which cannot change" in text
 
 
 def test_a_take_off_beside_a_drive_moves(repository: Path) -> None:
-    drive = """
-[[constraint]]
-name = "motor"
-type = "coordinate"
-joint = "hinge"
-drive = { amplitude = 0.1, period = 5.0 }
-"""
-    assert not any("force 'pto'" in line for line in complaints(flap(repository, more=PTO + drive)))
+    motor = driven("motor", {"amplitude": 0.1, "period": 5.0}, joint="hinge")
+    case = flap(repository, forces=[PTO], constraints=[motor])
+    assert not any("force 'pto'" in line for line in complaints(case))
 
 
 def test_a_start_beyond_a_stop(repository: Path) -> None:
-    stop = """
-[[constraint]]
-name = "stop"
-type = "stop"
-joint = "hinge"
-lower_deg = -5.0
-upper_deg = 5.0
-"""
-    assert complaints(flap(repository, more=stop)) == []
-    (text,) = complaints(flap(repository, more=stop, angle="20.0"))
+    ends = dict(name="stop", type="stop", joint="hinge", lower_deg=-5.0, upper_deg=5.0)
+    assert complaints(flap(repository, constraints=[ends])) == []
+    (text,) = complaints(flap(repository, constraints=[ends], angle=20.0))
     assert "20 deg is not within -5 and 5" in text
 
 
 @pytest.mark.parametrize(
     ("wave", "words"),
     [
-        ('type = "regular"\nperiod = 4.0\nheight = 4.0', "waves break at 0.142"),
-        ('type = "jonswap"\npeak_period = 5.0\nsignificant_height = 4.0', "(DNV-RP-C205)"),
+        (dict(type="regular", period=4.0, height=4.0), "waves break at 0.142"),
+        (dict(type="jonswap", peak_period=5.0, significant_height=4.0), "(DNV-RP-C205)"),
     ],
 )
-def test_waves_that_would_break(repository: Path, wave: str, words: str) -> None:
-    case = sphere(repository, more=f'[[wave]]\nname = "sea"\n{wave}\n')
+def test_waves_that_would_break(repository: Path, wave: Table, words: str) -> None:
+    case = sphere(repository, wave=[wave | {"name": "sea"}])
     (text,) = complaints(case)
     assert words in text
     assert any(words in note for note in run_notes(case))
-    gentle = wave.replace("height = 4.0", "height = 0.3")
-    assert complaints(sphere(repository, more=f'[[wave]]\nname = "sea"\n{gentle}\n')) == []
+    gentle = {key: 0.3 if "height" in key else value for key, value in wave.items()}
+    assert complaints(sphere(repository, wave=[gentle | {"name": "sea"}])) == []
 
 
 def test_a_sea_too_high_for_its_depth() -> None:
-    sea = """
-[[wave]]
-name = "sea"
-type = "jonswap"
-significant_height = 4.0
-peak_period = 14.0
-"""
-    assert any("0.6 of the depth of 5 m" in line for line in complaints(pole(depth=5.0, more=sea)))
-    assert complaints(pole(depth=50.0, more=sea)) == []
+    sea = [dict(name="sea", type="jonswap", significant_height=4.0, peak_period=14.0)]
+    assert any("0.6 of the depth of 5 m" in line for line in complaints(pole(depth=5.0, wave=sea)))
+    assert complaints(pole(depth=50.0, wave=sea)) == []
 
 
 def test_where_the_scene_rests(repository: Path) -> None:
     """A constant moment that tilts the flap to 30 degrees is told by check."""
-    load = """
-[[force]]
-type = "constant_load"
-name = "push"
-body = "flap"
-moment = [0.0, {moment}, 0.0]
-"""
-    stiffness = 5.0e6
-    text = flap(repository, more=load.format(moment=stiffness)).examine()
+    push = dict(type="constant_load", name="push", body="flap", moment=[0.0, 5.0e6, 0.0])
+    text = flap(repository, forces=[push]).examine()
     assert "at rest in still water body 'flap' is at" in text
     assert "at rest in still water" not in flap(repository).examine()
 
@@ -334,39 +247,35 @@ moment = [0.0, {moment}, 0.0]
 @pytest.mark.parametrize(
     ("keys", "complaint"),
     [
-        ('type = "rope"\nstiffness = 1e3\nlength = 2.0', "5 times its unstretched length, 2 m"),
-        ('type = "rope"\nstiffness = 1e3\nlength = 4.0', ""),
-        ('type = "rope"\nstiffness = 100.0\npretension = 1e3', "10 times its stiffness EA, 100 N"),
-        ('type = "catenary"\nstiffness = [1e3]\nweight = [1.0]\nlength = [1.0]', "10 times its"),
-        ('type = "line"\nstiffness = [1e3]\nmass = [1.0]\nlength = [1.0]', "10 times its"),
+        (dict(type="rope", stiffness=1e3, length=2.0), "5 times its unstretched length, 2 m"),
+        (dict(type="rope", stiffness=1e3, length=4.0), ""),
+        (dict(type="rope", stiffness=100.0, pretension=1e3), "10 times its stiffness EA, 100 N"),
+        (dict(type="catenary", stiffness=[1e3], weight=[1.0], length=[1.0]), "10 times its"),
+        (dict(type="line", stiffness=[1e3], mass=[1.0], length=[1.0]), "10 times its"),
     ],
 )
-def test_ropes_stretched_beyond_rubber(keys: str, complaint: str) -> None:
-    places = 'body_b = "pole"\npoint_a = [0, 0, -12]\npoint_b = [0, 0, -2]\n'
-    if "rope" in keys:
-        places = 'bodies = ["ground", "pole"]\npoints = [[0, 0, -12], [0, 0, -2]]\n'
-    found = complaints(pole(depth=12.0, more=f'[[force]]\nname = "tether"\n{places}{keys}'))
+def test_ropes_stretched_beyond_rubber(keys: Table, complaint: str) -> None:
+    low, high = [0, 0, -12], [0, 0, -2]
+    places: Table = {"body_b": "pole", "point_a": low, "point_b": high}
+    if keys["type"] == "rope":
+        places = {"bodies": ["ground", "pole"], "points": [low, high]}
+    tether: Table = {"name": "tether", **places, **keys}
+    found = complaints(pole(depth=12.0, forces=[tether]))
     assert len(found) == (1 if complaint else 0)
     assert all(complaint in text and "force 'tether'" in text for text in found)
 
 
-HULL = """
-[environment]
-water_density = 1000.0
-water_depth = {depth}
-{wave}
-[[body]]
-name = "float"
-motion = "heave"
-mass = "equilibrium"
-center_of_gravity = [0.0, 0.0, -0.5]
-mesh = "hull.obj"
-hydrostatics = "mesh"
-{loads}initial = {{ displacement = [0.0, 0.0, {release}] }}
-[solver]
-end_time = 1.0
-"""
-WAVE = '[[wave]]\nname = "w"\ntype = "regular"\nheight = {}\nperiod = 8.0'
+def hull(
+    folder: Path, depth: float = 1e4, release: float = 0.0, height: float = 0.0
+) -> hydrodae.Case:
+    """Return a float of `hull.obj` in still water or in a wave, which moves its mesh."""
+    float_ = body("float", "heave", 0.0, [0.0, 0.0, -0.5], displacement=[0.0, 0.0, release])
+    float_ |= {"mass": "equilibrium", "mesh": "hull.obj", "hydrostatics": "mesh"}
+    more: Table = {"environment": {"water_density": 1000.0, "water_depth": depth}}
+    if height:
+        float_["froude_krylov"] = "mesh"
+        more["wave"] = [dict(name="w", type="regular", height=height, period=8.0)]
+    return case_of(made([float_], 1.0, **more), folder)
 
 
 @pytest.mark.parametrize(
@@ -387,8 +296,7 @@ def test_size_and_freeboard_of_a_mesh(
 ) -> None:
     vertices, triangles = hulls.box(4.0, 3.0, -2.0, top)
     hulls.write_obj(tmp_path / "hull.obj", (scale * vertices, triangles))
-    text = HULL.format(depth=depth, wave="", loads="", release=0.0)
-    case = hydrodae.Case.from_text(text, directory=tmp_path)
+    case = hull(tmp_path, float(depth))
     told = complaints(case)
     if found is None or found == "nothing restores":
         assert not any("mesh of body" in line for line in told)
@@ -405,13 +313,7 @@ def test_waves_or_a_release_above_the_freeboard_are_noted(
     tmp_path: Path, height: float, release: float, awash: bool
 ) -> None:
     hulls.write_obj(tmp_path / "hull.obj", hulls.box(4.0, 3.0, -2.0, 0.3))
-    text = HULL.format(
-        depth=50.0,
-        wave=WAVE.format(height) if height else "",
-        loads='froude_krylov = "mesh"\n' if height else "",
-        release=release,
-    )
-    case = hydrodae.Case.from_text(text, directory=tmp_path)
+    case = hull(tmp_path, 50.0, release, height)
     assert ("may flood its deck" in case.examine()) == awash
     assert complaints(case) == []
 
@@ -420,8 +322,7 @@ def test_one_mesh_in_millimetres_beside_another_is_told(tmp_path: Path) -> None:
     vertices, triangles = hulls.box(0.4, 0.3, -0.2, 0.2)
     hulls.write_obj(tmp_path / "hull.obj", (vertices, triangles))
     hulls.write_obj(tmp_path / "large.obj", (1000.0 * vertices, triangles))
-    text = HULL.format(depth="1e4", wave="", loads="", release=0.0)
-    body = text[text.index("[[body]]") : text.index("[solver]")]
-    other = body.replace('"float"', '"large"').replace("hull.obj", "large.obj")
-    case = hydrodae.Case.from_text(text.replace("[solver]", other + "[solver]"), directory=tmp_path)
+    tables = tomllib.loads(hull(tmp_path).text)
+    tables["body"].append(tables["body"][0] | {"name": "large", "mesh": "large.obj"})
+    case = case_of(tables, tmp_path)
     assert any("400 m long, that of body 'float' 0.4 m" in line for line in complaints(case))

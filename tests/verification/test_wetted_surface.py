@@ -5,11 +5,14 @@ from __future__ import annotations
 import shutil
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
 import pytest
+from tests.attack.parts import Table, body, case
 from tests.verification import hulls
+from tests.verification.blocks import case_of, run_tables
 from tests.verification.hull_truths import cap_decay, panel_heave
 
 import hydrodae
@@ -17,41 +20,30 @@ from hydrodae.commands import cli
 
 RHO, GRAVITY = 1000.0, 9.81
 ROOT = Path(__file__).resolve().parents[2]
-FLOAT = """
-[environment]
-gravity = 9.81
-water_density = 1000.0
-[[body]]
-name = "float"
-motion = "{motion}"
-mass = {mass!r}
-center_of_gravity = [0.0, 0.0, {height!r}]
-inertia = [{inertia!r}, {inertia!r}, {inertia!r}]
-mesh = "{mesh}"
-hydrostatics = "mesh"
-initial = {{ displacement = [0.0, 0.0, {release!r}], rotation_deg = [0.0, {pitch!r}, 0.0] }}
-[solver]
-end_time = {end!r}
-rtol = {rtol!r}
-[output]
-step = {step!r}
-"""
+MESHED = {"hydrostatics": "mesh", "froude_krylov": "mesh", "mesh": "sphere.obj"}
 
 
-def _float(folder: Path, mesh: str, mass: float, **more: float | str) -> Path:
-    values = dict(
-        motion="heave",
-        height=0.0,
-        inertia=1.0,
-        release=0.0,
-        pitch=0.0,
-        end=10.0,
-        rtol=1e-8,
-        step=0.05,
-    )
-    path = folder / "case.toml"
-    path.write_text(FLOAT.format(mesh=mesh, mass=mass, **(values | more)))
-    return path
+def _float(
+    mesh: str,
+    mass: float,
+    end: float = 10.0,
+    *,
+    motion: str = "heave",
+    height: float = 0.0,
+    inertia: float = 1.0,
+    release: float = 0.0,
+    pitch: float = 0.0,
+    step: float = 0.05,
+) -> Table:
+    """Return a float whose only loads are those of its mesh and its weight."""
+    start = dict(displacement=[0.0, 0.0, release], rotation_deg=[0.0, pitch, 0.0])
+    hull = body("float", motion, mass, [0.0, 0.0, height], [inertia] * 3, **start)
+    hull |= {"mesh": mesh, "hydrostatics": "mesh"}
+    water: Table = {
+        "environment": {"gravity": 9.81, "water_density": 1000.0},
+        "output": {"step": step},
+    }
+    return case([hull], end, **water)
 
 
 @pytest.mark.parametrize(
@@ -67,7 +59,8 @@ def test_a_box_heaves_as_in_closed_form(
 ) -> None:
     # without added mass: m z'' = -rho g A z, as long as its deck is dry and its bottom wet
     write(tmp_path / name, hulls.box(4.0, 2.0, -1.0, 1.5))
-    results = hydrodae.run(_float(tmp_path, name, RHO * 8.0, release=0.8))
+    tables = _float(name, RHO * 8.0, release=0.8)
+    results = run_tables(tables, tmp_path, rtol=1e-8)
     rate = np.sqrt(GRAVITY / 1.0)
     exact = 0.8 * np.cos(rate * results.time)
     np.testing.assert_allclose(results["bodies/float/position"].values[:, 2], exact, atol=1e-5)
@@ -78,18 +71,9 @@ def test_a_turned_box_has_the_load_of_its_submerged_prism(tmp_path: Path) -> Non
     # s = d / cos(a) + x tan(a) above that point, the bottom is 0.8 m below it.
     hulls.write_obj(tmp_path / "box.obj", hulls.box(4.0, 2.0, -1.0, 1.5))
     depth, bottom, angle = 0.2, 0.8, np.deg2rad(20.0)
-    path = _float(
-        tmp_path,
-        "box.obj",
-        RHO * 8.0,
-        motion="planar",
-        height=-depth,
-        inertia=2.0e4,
-        pitch=20.0,
-        end=0.02,
-        step=0.01,
-    )
-    results = hydrodae.run(path)
+    turned = dict(height=-depth, inertia=2.0e4, pitch=20.0, step=0.01)
+    tables = _float("box.obj", RHO * 8.0, 0.02, motion="planar", **turned)
+    results = run_tables(tables, tmp_path, rtol=1e-8)
     middle, slope = depth / np.cos(angle), np.tan(angle)
     volume = 2.0 * 4.0 * (middle + bottom)
     along = 2.0 * slope * 16.0 / 3.0  # integral of x over the prism
@@ -110,59 +94,51 @@ def test_undamped_bobbing_keeps_its_energy(tmp_path: Path, shape: str, method: s
         mesh = hulls.revolved(np.array([0.0, 2.0, 0.0]), np.array([-1.0, 1.0, 1.0]), 48)
         mass = RHO * np.pi / 3.0
     hulls.write_obj(tmp_path / "hull.obj", mesh)
-    path = _float(tmp_path, "hull.obj", float(mass), release=0.8, end=190.0, rtol=1e-9)
-    results = hydrodae.run(path, set={"solver.method": method})
+    tables = _float("hull.obj", float(mass), 190.0, release=0.8)
+    results = run_tables(tables, tmp_path, method=method, rtol=1e-9)
     total = results["energy/total"].values
     assert np.ptp(results["bodies/float/position"].values[:, 2]) > 1.3
     assert np.abs(total - total[0]).max() < 1e-6 * results["energy/kinetic"].values.max()
 
 
-def _sphere_in_waves(folder: Path, height: float, more: str, end: float = 100.0) -> Path:
+def _sphere_in_waves(
+    folder: Path,
+    height: float,
+    hull: Table,
+    end: float = 100.0,
+    *,
+    motion: str = "heave",
+    ramp: float = 30.0,
+    release: float = 0.0,
+    facets: int = 30,
+    **more: Any,
+) -> hydrodae.Case:
+    """Return the sphere of cases/sphere in a wave, or in still water if its height is 0."""
     shutil.copy(ROOT / "cases" / "sphere" / "hydro.h5", folder)
-    hulls.write_obj(folder / "sphere.obj", hulls.sphere(5.0, 30))
-    path = folder / "case.toml"
-    path.write_text(f"""
-[hydro]
-database = "hydro.h5"
-[sea]
-ramp = 30.0
-[[wave]]
-name = "swell"
-type = "regular"
-period = 5.0
-height = {height!r}
-[[body]]
-name = "sphere"
-hydro = "sphere"
-motion = "heave"
-mass = 261.8e3
-center_of_gravity = [0.0, 0.0, -2.0]
-{more}
-[solver]
-end_time = {end!r}
-rtol = 1e-7
-[output]
-step = 0.1
-""")
-    return path
-
-
-MESH = 'mesh = "sphere.obj"\nhydrostatics = "mesh"\nfroude_krylov = "mesh"'
+    hulls.write_obj(folder / "sphere.obj", hulls.sphere(5.0, facets))
+    start = [0.0, 0.0, release]
+    sphere = body("sphere", motion, 261.8e3, [0.0, 0.0, -2.0], displacement=start)
+    if height:
+        swell = dict(name="swell", type="regular", period=5.0, height=height)
+        more |= {"sea": {"ramp": ramp}, "wave": [swell]}
+    output = {"step": 0.1 if height else 0.01}
+    given: Table = dict(hydro={"database": "hydro.h5"}, output=output, **more)
+    return case_of(case([sphere | {"hydro": "sphere"} | hull], end, **given), folder, rtol=1e-7)
 
 
 @pytest.mark.parametrize("split", [True, False])
 def test_small_waves_move_it_as_linear_theory_says(tmp_path: Path, split: bool) -> None:
     """Whether the database has Froude-Krylov and diffraction loads apart or their sum alone."""
     height = 0.004  # 1e-4 of the length
-    linear = hydrodae.run(_sphere_in_waves(tmp_path, height, ""))
-    case = _sphere_in_waves(tmp_path, height, MESH)
+    linear = hydrodae.run(_sphere_in_waves(tmp_path, height, {}))
+    small = _sphere_in_waves(tmp_path, height, MESHED)
     if not split:
         with h5py.File(tmp_path / "hydro.h5", "r+") as file:
             parts = file["excitation"]
             parts["diffraction"][...] += parts["froude_krylov"][...]
             parts["froude_krylov"][...] = 0.0
             parts.attrs["split"] = "total only"
-    meshed = hydrodae.run(case)
+    meshed = hydrodae.run(small)
     late = linear.time > 60.0
     a, b = (r["bodies/sphere/position"].values[late, 2] for r in (linear, meshed))
     a, b = a - a.mean(), b - b.mean()  # facets and digits of the mass move the mean
@@ -174,15 +150,10 @@ def test_small_waves_move_it_as_linear_theory_says(tmp_path: Path, split: bool) 
 
 
 def test_a_sphere_released_from_its_radius_follows_the_exact_cap(tmp_path: Path) -> None:
-    more = MESH + "\ninitial = { displacement = [0.0, 0.0, 5.0] }"
-    text = _sphere_in_waves(tmp_path, 1.0, more, end=16.0).read_text()
-    before, after = text.split("[sea]")  # still water
-    path = tmp_path / "drop.toml"
-    path.write_text(before + "[[body]]" + after.split("[[body]]")[1])
     errors = []
     for n in (15, 30):
-        hulls.write_obj(tmp_path / "sphere.obj", hulls.sphere(5.0, n))
-        results = hydrodae.run(path, set={"output.step": 0.01})
+        drop = _sphere_in_waves(tmp_path, 0.0, MESHED, end=16.0, release=5.0, facets=n)
+        results = hydrodae.run(drop)
         heave = results["bodies/sphere/position"].values[:, 2] + 2.0
         exact = cap_decay(tmp_path / "hydro.h5", 5.0, 261.8e3, 5.0, results.time)
         errors.append(np.sqrt(np.mean((heave - exact) ** 2)))
@@ -194,9 +165,9 @@ def test_a_sphere_released_from_its_radius_follows_the_exact_cap(tmp_path: Path)
 def test_large_waves_move_it_as_an_independent_program_says(
     tmp_path: Path, stretching: str
 ) -> None:
-    path = _sphere_in_waves(tmp_path, 3.0, MESH, end=60.0)
+    large = _sphere_in_waves(tmp_path, 3.0, MESHED, end=60.0)
     radiation = {"hydro.radiation": "constant", "hydro.frequency": 2.0 * np.pi / 5.0}
-    results = hydrodae.run(path, set={"sea.stretching": stretching, **radiation})
+    results = hydrodae.run(large, set={"sea.stretching": stretching, **radiation})
     heave = results["bodies/sphere/position"].values[:, 2] + 2.0
     times = np.arange(0.0, 60.01, 0.05)
     own = panel_heave(
@@ -214,65 +185,47 @@ def test_large_waves_move_it_as_an_independent_program_says(
 
 
 @pytest.mark.parametrize(
-    ("body", "message"),
+    ("hull", "message"),
     [
-        ('mesh = "sphere.obj"', 'a mesh does nothing without hydrostatics = "mesh"'),
-        ('hydrostatics = "mesh"', "needs 'mesh', the file of the surface"),
-        (
-            'mesh = "sphere.obj"\nfroude_krylov = "mesh"\nhydrostatics = "linear"',
-            "a mesh does nothing without",
-        ),
-        ('mesh = "none.stl"\nhydrostatics = "mesh"', "cannot read the mesh"),
-        ('mesh = "hydro.h5"\nhydrostatics = "mesh"', "a mesh is an .stl or .obj file"),
-        ('mesh = "open.obj"\nhydrostatics = "mesh"', "key 'mesh' in [[body]] 'sphere'"),
+        ({"mesh": "sphere.obj"}, 'a mesh does nothing without hydrostatics = "mesh"'),
+        ({"hydrostatics": "mesh"}, "needs 'mesh', the file of the surface"),
+        (MESHED | {"hydrostatics": "linear"}, "a mesh does nothing without"),
+        ({"mesh": "none.stl", "hydrostatics": "mesh"}, "cannot read the mesh"),
+        ({"mesh": "hydro.h5", "hydrostatics": "mesh"}, "a mesh is an .stl or .obj file"),
+        ({"mesh": "open.obj", "hydrostatics": "mesh"}, "key 'mesh' in [[body]] 'sphere'"),
     ],
 )
-def test_what_a_mesh_lacks_is_said(tmp_path: Path, body: str, message: str) -> None:
+def test_what_a_mesh_lacks_is_said(tmp_path: Path, hull: Table, message: str) -> None:
     vertices, triangles = hulls.sphere(5.0, 6)
     hulls.write_obj(tmp_path / "open.obj", (vertices, triangles[:-1]))
     with pytest.raises(hydrodae.CaseError) as error:
-        hydrodae.Case.read(_sphere_in_waves(tmp_path, 1.0, body))
+        _sphere_in_waves(tmp_path, 1.0, hull)
     assert message in error.value.fault
-    assert error.value.file == str(tmp_path / "case.toml")
     assert error.value.key.startswith("body.sphere.")
-
-
-ELEMENT = """
-[[morison]]
-name = "inside"
-body = "sphere"
-point = [0.0, 0.0, -2.5]
-volume = 10.0
-added_mass_coefficient = 0.25
-[[morison]]
-name = "beside"
-body = "sphere"
-point = [6.0, 0.0, -2.5]
-volume = 10.0
-added_mass_coefficient = 0.25
-"""
 
 
 def test_an_element_inside_the_mesh_leaves_the_waves_to_it(tmp_path: Path) -> None:
     """rho V (1 + C_a) a_f holds the undisturbed waves, which the mesh has by its pressure."""
+    ball = dict(body="sphere", volume=10.0, added_mass_coefficient=0.25)
+    inside = ball | {"name": "inside", "point": [0.0, 0.0, -2.5]}
+    beside = ball | {"name": "beside", "point": [6.0, 0.0, -2.5]}
+
+    def fixed(hull: Table, *elements: Table) -> hydrodae.Results:
+        given: Table = dict(end=20.0, motion="fixed", ramp=2.0, morison=elements)
+        return hydrodae.run(_sphere_in_waves(tmp_path, 0.5, hull, **given))
+
     forces = []
-    for more in (MESH, ""):
-        path = _sphere_in_waves(tmp_path, 0.5, more, end=20.0)
-        text = path.read_text().replace('"heave"', '"fixed"').replace("ramp = 30.0", "ramp = 2.0")
-        path.write_text(text + ELEMENT)
-        results = hydrodae.run(path)
+    for hull in (MESHED, {}):
+        results = fixed(hull, inside, beside)
         forces.append({k: results[f"forces/{k}/sphere/force"].values for k in ("inside", "beside")})
-        assert ("lies inside the mesh" in str(results.notes)) == bool(more)
+        assert ("lies inside the mesh" in str(results.notes)) == bool(hull)
     assert np.abs(forces[1]["inside"]).max() > 100.0
     np.testing.assert_allclose(forces[0]["inside"], 0.2 * forces[1]["inside"], atol=1e-6)
     np.testing.assert_allclose(forces[0]["beside"], forces[1]["beside"], atol=1e-6)
-    member = ELEMENT.replace(
-        "point = [0.0", "diameter = 1.0\npoint_b = [0.0, 0.0, -9.0]\npoint_a = [0.0"
-    )
-    member = member.replace("volume = 10.0\n", "", 1)
-    path.write_text(text.replace('motion = "fixed"', f'motion = "fixed"\n{MESH}') + member)
+    ends = dict(point_a=[0.0, 0.0, -2.5], point_b=[0.0, 0.0, -9.0], diameter=1.0)
+    member = dict(name="inside", body="sphere", added_mass_coefficient=0.25, **ends)
     with pytest.raises(hydrodae.CaseError, match="8 of its 20 pieces lie inside the mesh") as error:
-        hydrodae.run(path)
+        fixed(MESHED, member, beside)
     assert error.value.key == "morison.inside"
 
 
@@ -282,7 +235,9 @@ def test_a_meshed_body_that_is_top_heavy_is_found(
 ) -> None:
     """Box 4 m long, draught 1 m: BM = 4^2 / 12 m in pitch, so it capsizes with G above 0.833 m."""
     hulls.write_obj(tmp_path / "box.obj", hulls.box(4.0, 2.0, -1.0, 1.5))
-    path = _float(tmp_path, "box.obj", 8000.0, motion="planar", height=height, inertia=1e4)
+    tables = _float("box.obj", 8000.0, motion="planar", height=height, inertia=1e4)
+    path = tmp_path / "case.toml"
+    path.write_text(case_of(tables, tmp_path).text)
     cli.main(["check", str(path)])
     assert (
         "body 'float' capsizes: its pitch stiffness" in "".join(capsys.readouterr())

@@ -1,4 +1,9 @@
-"""The language of pages, `--help` texts, messages, docstrings and comments."""
+"""Language of pages, `--help` texts, messages, docstrings and comments: a check beside ruff.
+
+Prints each sentence that breaks a rule, with its file and line, and ends with exit code 1.
+
+    python -m tests.lint
+"""
 
 from __future__ import annotations
 
@@ -7,16 +12,17 @@ import ast
 import inspect
 import io
 import re
+import sys
 import tokenize
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-import pytest
 from tests.python.doc_blocks import pages
 
 from hydrodae.commands import cli
 
-Comments = Callable[[str], Iterator[tuple[int, str, bool]]]
+ROOT = Path(__file__).resolve().parents[1]
+FOLDERS = ("cpp", "python", "tests", "cases", "docs")
 
 MOST = 25
 """Words in a sentence; code, numbers and symbols do not count."""
@@ -43,9 +49,6 @@ BANNED = {
     r"simply|obviously|of course": "leave it out",
     r"utili[sz]e[sd]?": "use",
 }
-
-#: Pages that still break the rules: take a page off when you have rewritten it, add none.
-PENDING: set[str] = set()
 
 
 def prose(text: str) -> str:
@@ -84,24 +87,20 @@ def faults(text: str, most: int = MOST, allowed: str = "") -> Iterator[str]:
             yield f"{found[0]!r}, write {instead}: ...{around}..."
 
 
-def held(repository: Path) -> list[Path]:
+def held() -> list[Path]:
     """All pages, also those that docs/reference.py makes from the kernel."""
-    found = [*pages(repository), repository / "CHANGELOG.md", repository / "tests" / "README.md"]
-    found += (repository / ".github").glob("*.md")
-    return found
+    found = [*pages(ROOT), ROOT / "CHANGELOG.md", ROOT / "tests" / "README.md"]
+    return found + list((ROOT / ".github").glob("*.md"))
 
 
-def test_pages_keep_to_the_rules(repository: Path) -> None:
-    broken_rules, clean = [], set()
-    for page in held(repository):
-        name = page.relative_to(repository).as_posix()
-        broken = list(faults(page.read_text()))
-        if name not in PENDING:
-            broken_rules += [f"{name}: {fault}" for fault in broken]
-        elif not broken:
-            clean.add(name)
-    assert not broken_rules, "\n".join(broken_rules)
-    assert not clean, f"take off PENDING: {clean}"
+def of_pages() -> Iterator[str]:
+    """Faults of pages, and of the mean length of their sentences."""
+    counts = []
+    for page in held():
+        yield from (f"{page.relative_to(ROOT)}: {fault}" for fault in faults(page.read_text()))
+        counts += [count for one in sentences(page.read_text()) if (count := words(one))]
+    if sum(counts) > MEAN * len(counts):
+        yield f"pages: {sum(counts) / len(counts):.2f} words a sentence (at most {MEAN})"
 
 
 def parsers(parser: argparse.ArgumentParser, name: str) -> Iterator[tuple[str, str]]:
@@ -116,23 +115,10 @@ def parsers(parser: argparse.ArgumentParser, name: str) -> Iterator[tuple[str, s
     yield name, "\n\n".join(texts)
 
 
-def test_help_keeps_to_the_rules() -> None:
-    broken = [
-        f"{name}: {fault}"
-        for name, text in parsers(cli._parser(cli.ALL), "hydrodae")
-        for fault in faults(text)
-    ]
-    assert not broken, "\n".join(broken)
-
-
-def test_sentences_of_the_pages_are_short_on_average(repository: Path) -> None:
-    counts = [
-        count
-        for page in held(repository)
-        for sentence in sentences(page.read_text())
-        if (count := words(sentence))
-    ]
-    assert sum(counts) / len(counts) <= MEAN
+def of_help() -> Iterator[str]:
+    """Faults of the texts that `--help` prints."""
+    for name, text in parsers(cli._parser(cli.ALL), "hydrodae"):
+        yield from (f"{name}: {fault}" for fault in faults(text))
 
 
 def clauses(text: str) -> str:
@@ -200,25 +186,25 @@ def python_comments(source: str) -> Iterator[tuple[int, str, bool]]:
             yield token.start[0], re.sub(r"^#:? ?", "", token.string), not before.strip()
 
 
-@pytest.mark.parametrize(
-    ("suffixes", "comments", "fewest"),
-    [({".cpp", ".h"}, cpp_comments, 500), ({".py"}, python_comments, 400)],
-    ids=["cpp", "python"],
-)
-def test_comments_keep_to_the_rules(
-    repository: Path, suffixes: set[str], comments: Comments, fewest: int
-) -> None:
-    folders = ("cpp", "python", "tests", "cases", "docs")
-    files = [file for folder in folders for file in sorted((repository / folder).rglob("*.*"))]
-    files = [file for file in files if file.suffix in suffixes]
-    assert len(files) > fewest
-    broken = [
-        f"{file.relative_to(repository)}:{line}: {fault}"
-        for file in files
-        for line, text in blocks(comments(file.read_text()))
-        for fault in faults(clauses(text), LONGEST)
-    ]
-    assert not broken, "\n".join(broken)
+def of_comments() -> Iterator[str]:
+    """Faults of comments, and files that comments of C++ name but that do not exist."""
+    files = [file for folder in FOLDERS for file in sorted((ROOT / folder).rglob("*.*"))]
+    paths = [f"/{file.relative_to(ROOT)}" for file in files]
+    named = re.compile(r"//.*?([\w/]+\.(?:h|cpp|py|md|toml)\b)")
+    for file in files:
+        cpp = file.suffix in (".cpp", ".h")
+        if not cpp and file.suffix != ".py":
+            continue
+        name, source = file.relative_to(ROOT), file.read_text()
+        for line, text in blocks((cpp_comments if cpp else python_comments)(source)):
+            for fault in faults(clauses(text), LONGEST):
+                yield f"{name}:{line}: {fault}"
+        if not cpp or not file.is_relative_to(ROOT / "cpp"):
+            continue
+        for line, text in enumerate(source.splitlines(), 1):
+            for match in named.finditer(text):
+                if not any(path.endswith(f"/{match[1]}") for path in paths):
+                    yield f"{name}:{line}: there is no file {match[1]}"
 
 
 def described(docstring: str) -> str:
@@ -235,70 +221,56 @@ def described(docstring: str) -> str:
     return "\n".join(kept)
 
 
-def test_messages_and_keys_of_the_kernel_keep_to_the_rules(repository: Path) -> None:
-    folders = (repository / "cpp", repository / "python" / "bindings")
-    files = [file for folder in folders for file in sorted(folder.rglob("*.[ch]*"))]
-    assert len(files) > 400
-    broken = [
-        f"{file.relative_to(repository)}:{line}: {fault}"
-        for file in files
-        for line, text in literals(file.read_text())
-        for fault in faults(clauses(text))
-    ]
-    assert not broken, "\n".join(broken)
+def of_messages() -> Iterator[str]:
+    """Faults of messages and keys of the kernel."""
+    for folder in (ROOT / "cpp", ROOT / "python" / "bindings"):
+        for file in sorted(folder.rglob("*.[ch]*")):
+            for line, text in literals(file.read_text()):
+                for fault in faults(clauses(text)):
+                    yield f"{file.relative_to(ROOT)}:{line}: {fault}"
 
 
-def test_messages_and_docstrings_of_python_keep_to_the_rules(repository: Path) -> None:
-    broken = []
-    for file in sorted((repository / "python" / "hydrodae").rglob("*.py")):
+def of_docstrings() -> Iterator[str]:
+    """Faults of messages and docstrings of the package; None is a word of Python."""
+    for file in sorted((ROOT / "python" / "hydrodae").rglob("*.py")):
         for line, text, is_docstring in strings(file.read_text()):
-            if is_docstring:  # None is a word of Python
+            if is_docstring:
                 found = faults(clauses(described(text)), LONGEST, allowed=NONE)
             else:
                 found = faults(clauses(text)) if " " in text.strip() else iter(())
-            broken += [f"{file.relative_to(repository)}:{line}: {fault}" for fault in found]
-    assert not broken, "\n".join(broken)
+            yield from (f"{file.relative_to(ROOT)}:{line}: {fault}" for fault in found)
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
+def check_itself() -> None:
+    """Find what is known to break a rule, and nothing in code."""
+    for text in (
         "The summary tells the error.",
         "A run is " + "very " * 25 + "long.",
         "| key | there is none |",
         "- one of your own\n- some 30 of one's own",
-    ],
-)
-def test_a_broken_rule_is_found(text: str) -> None:
-    assert list(faults(text))
-
-
-def test_strings_are_found_and_joined() -> None:
-    assert list(literals('x; // "a"\nf("he told \\"it\\" "\n  "twice");')) == [
-        (2, "he told 'it' twice")
-    ]
+    ):
+        assert list(faults(text)), text
+    assert not list(faults("```text\nhe told him\n```\n\nThe key `tell` is [short](tell.md)."))
+    source = 'x; // "a"\nf("he told \\"it\\" "\n  "twice");'
+    assert list(literals(source)) == [(2, "he told 'it' twice")]
     source = '"""One."""\nx = f"two {x} three"\nwords = "four five".split()\n'
     assert list(strings(source)) == [(2, "two `x` three", False), (1, "One.", True)]
-
-
-def test_comments_are_found_and_joined() -> None:
     source = 'f("// no");  // one\n/// Two\n///   T = told\n/// three.\n/// @returns four\n'
     assert list(blocks(cpp_comments(source)))[1:] == [(1, "one"), (2, "Two\n\nthree.\n\n four")]
     source = 'x = "# no"  # one\n#: Two\n# three.\n'
     assert list(blocks(python_comments(source)))[1:] == [(1, "one"), (2, "Two\nthree.")]
-
-
-def test_the_prose_of_a_docstring_is_short() -> None:
-    text = """Return the sum.
-
-    Parameters
-    ----------
-    tell : float
-        First.
-    """
+    text = "Return the sum.\n\n    Parameters\n    ----------\n    tell : float\n        First.\n"
     assert not list(faults(described(text)))
     assert list(faults(described(text.replace("First", "As told"))))
 
 
-def test_code_is_no_prose() -> None:
-    assert not list(faults("```text\nhe told him\n```\n\nThe key `tell` is [short](tell.md)."))
+def main() -> int:
+    """Print what breaks the rules; 1 if anything does."""
+    check_itself()
+    broken = [*of_pages(), *of_help(), *of_messages(), *of_docstrings(), *of_comments()]
+    print("\n".join(broken) or "words: no faults")
+    return int(bool(broken))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
