@@ -1,14 +1,16 @@
 """Reads files as a user of the Python package does, and prints how each ended.
 
 A request is a line "<task> <path>" on standard input, or two words of the command line; for tasks
-see `TASKS`. The answer is a line "<code> <message>": 0 read, 2 an error that the
-package raises on purpose, 1 any other exception.
+see `TASKS`. The answer is a line "<code> <message>" on what was standard output: 0 read, 2 an error
+that the package raises on purpose, 1 any other exception. What else is written there, by the
+package or by a library, goes to standard error.
 """
 
 from __future__ import annotations
 
 import contextlib
 import io
+import os
 import resource
 import signal
 import sys
@@ -138,9 +140,12 @@ def main() -> None:
     warnings.simplefilter("ignore")  # of numbers that are not finite
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     requests = [" ".join(sys.argv[1:])] if len(sys.argv) > 1 else sys.stdin
-    for line in requests:
-        task, _, path = line.rstrip("\n").partition(" ")
-        print(answer_to(task, Path(path)).replace("\n", " "), flush=True)
+    with os.fdopen(os.dup(1), "w", encoding="utf-8", errors="backslashreplace") as answers:
+        os.dup2(2, 1)
+        for line in requests:
+            task, _, path = line.rstrip("\n").partition(" ")
+            text = " ".join(answer_to(task, Path(path)).splitlines())
+            print(text, file=answers, flush=True)
 
 
 if __name__ == "__main__":

@@ -51,7 +51,7 @@ class Worker:
     def __init__(self, command: list[str], log: Path) -> None:
         """Nothing runs before the first request."""
         self.command, self.log = command, log
-        self.process: subprocess.Popen[str] | None = None
+        self.process: subprocess.Popen[bytes] | None = None
 
     def ask(self, request: str) -> tuple[int | None, str]:
         """Return code and message, without a code where the process ended or hangs."""
@@ -62,8 +62,6 @@ class Worker:
                     stdin=subprocess.PIPE,
                     stdout=subprocess.PIPE,
                     stderr=log,
-                    text=True,
-                    errors="replace",
                     env={**os.environ, **SANITIZERS},
                 )
         process = self.process
@@ -72,17 +70,22 @@ class Worker:
         timer = threading.Timer(PATIENCE, process.kill)
         timer.start()
         try:
-            process.stdin.write(request + "\n")
+            process.stdin.write(f"{request}\n".encode())
             process.stdin.flush()
-            code, _, message = process.stdout.readline().partition(" ")
+            answer = process.stdout.readline()  # bytes: a carriage return ends no line
         except BrokenPipeError:
-            code, message = "", ""
+            answer = b""
         finally:
             timer.cancel()
-        if code:
+        code, _, message = answer.decode(errors="replace").partition(" ")
+        if answer and code.isdecimal():
             return int(code), message.strip()
+        if answer:  # what follows may be the answer to this request or to the next
+            process.kill()
         ended = process.wait()
         self.process = None
+        if answer:
+            return None, f"no answer: {code[:100]} {message[:200].strip()}"
         return None, f"ended with {ended}: {reason(self.log)}"
 
     def close(self) -> str:

@@ -5,9 +5,11 @@
 /// case and the results, each ended by a zero. Tasks: e examine, l linearize, r run, w run and
 /// write `results.h5`. The answer is a line "<exit code> <message>", the code that hydrodae-solve
 /// would end with; 1 for an exception that hydrodae does not raise on purpose. A fault ends the
-/// process.
+/// process. Answers go to what was standard output; what else is written there, by a library, goes
+/// to standard error.
 
 #include <sys/time.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -123,24 +125,33 @@ Answer answer_to(const std::string& tasks, const std::string& folder) {
   }
 }
 
-void tell(Answer answer) {
+/// Standard output, which from now on is standard error for all others.
+std::FILE* take_output() {
+  std::FILE* own = fdopen(dup(STDOUT_FILENO), "w");
+  dup2(STDERR_FILENO, STDOUT_FILENO);
+  return own;
+}
+
+void tell(std::FILE* to, Answer answer) {
   std::replace(answer.message.begin(), answer.message.end(), '\n', ' ');
-  std::cout << answer.code << ' ' << answer.message << std::endl;
+  std::fprintf(to, "%d %s\n", answer.code, answer.message.c_str());
+  std::fflush(to);
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
   std::signal(SIGPROF, hang);
+  std::FILE* answers = take_output();
   if (argc == 3) {
     limit_processor_time();
-    tell(answer_to(argv[1], argv[2]));
+    tell(answers, answer_to(argv[1], argv[2]));
     return 0;
   }
   for (std::string line; std::getline(std::cin, line);) {
     const std::size_t space = line.find(' ');
     limit_processor_time();
-    tell(answer_to(line.substr(0, space), line.substr(space + 1)));
+    tell(answers, answer_to(line.substr(0, space), line.substr(space + 1)));
   }
   return 0;
 }

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
 import shutil
+import signal
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -14,7 +17,9 @@ from tests.errors import refused
 from tests.python.conftest import write_results
 
 from hydrodae import hdb
-from hydrodae.errors import DatabaseError
+from hydrodae.errors import DatabaseError, HydrodaeError
+from hydrodae.hdb.database import writers
+from hydrodae.records.table import read_table
 from hydrodae.results import Results, ResultsError
 
 PAIR = np.zeros(50, dtype=[("r", "f8"), ("i", "i4")])
@@ -151,3 +156,34 @@ def test_a_database_with_other_bytes_in_its_tables_is_refused(database: Path) ->
     database.write_bytes(data)
     with refused("damaged", file="hydro.h5"):
         hdb.read(database)
+
+
+@pytest.mark.parametrize("kind", ["capytaine", "bemio", "hydro"])
+def test_bytes_that_end_the_library_end_no_reader(kind: str, database: Path) -> None:
+    """Each file has eight bytes of its head, which holds most of the structure, set to 255."""
+    path = database.with_name("other.nc" if kind == "capytaine" else "other.h5")
+    write = {"capytaine": writers.write_capytaine, "bemio": writers.write_bemio}.get(kind)
+    if write is None:
+        shutil.copy(database, path)
+    else:
+        write(hdb.read(database), path)
+    content = path.read_bytes()
+    for at in range(96, 2048, 163):
+        path.write_bytes(content[:at] + b"\xff" * 8 + content[at + 8 :])
+        with contextlib.suppress(HydrodaeError):  # or it is read: the bytes may not matter
+            hdb.read(path)
+
+
+@pytest.mark.parametrize("kind", ["database", "results", "record"])
+def test_a_fault_of_the_library_is_an_error(
+    kind: str, database: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    results = write_results(tmp_path / "r.h5", np.linspace(0.0, 1.0, 50))
+    monkeypatch.setattr(h5py, "File", lambda *_: os.kill(os.getpid(), signal.SIGSEGV))
+    read = {
+        "database": lambda: hdb.read(database),
+        "results": lambda: Results.read(results),
+        "record": lambda: read_table(results),
+    }[kind]
+    with pytest.raises(HydrodaeError, match=r"\.h5: is damaged: .* signal SEGV; export it again"):
+        read()

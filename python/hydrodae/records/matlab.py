@@ -13,6 +13,7 @@ import numpy as np
 from hydrodae.errors import CaseError
 from hydrodae.records.columns import Columns, numbered
 from hydrodae.records.mat_elements import check
+from hydrodae.support.damaged import reading
 
 #: Fewest numbers that are a column; shorter ones are settings.
 _FEWEST = 4
@@ -59,6 +60,15 @@ def read_hdf5(path: Path) -> Columns:
     CaseError
         It cannot be read, or holds no vectors or matrices of numbers.
     """
+
+    def fault(file: Path, text: str) -> CaseError:
+        return CaseError(f"{file}: {text}")
+
+    return _table(path, reading(path, fault, "cannot be read", _numbers, search=True))
+
+
+def _numbers(file: h5py.File) -> dict[str, np.ndarray]:
+    """Arrays of numbers of an HDF5 file, in the order of MATLAB."""
     arrays: dict[str, np.ndarray] = {}
 
     def take(name: str, item: h5py.Group | h5py.Dataset) -> None:
@@ -68,12 +78,8 @@ def read_hdf5(path: Path) -> Columns:
         if item.dtype.kind in "fiu" and kind not in (b"char", b"cell", "char", "cell"):
             arrays[name.replace("/", ".")] = np.asarray(item[()]).T
 
-    try:
-        with h5py.File(path) as file:
-            file.visititems(take)
-    except (OSError, RuntimeError) as error:
-        raise CaseError(f"{path}: cannot be read: {error}") from None
-    return _table(path, arrays)
+    file.visititems(take)
+    return arrays
 
 
 def _gather(found: Mapping[str, Any], prefix: str, arrays: dict[str, np.ndarray]) -> None:

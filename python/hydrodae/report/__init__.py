@@ -4,9 +4,14 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from hydrodae.results import Results, ResultsError
 from hydrodae.support import outputs
+from hydrodae.support.damaged import apart
+
+if TYPE_CHECKING:
+    import xarray
 
 __all__ = ["report"]
 
@@ -41,18 +46,23 @@ def report(source: str | os.PathLike[str], output: str | os.PathLike[str] | None
     return target
 
 
+def _refused(path: Path, fault: str) -> ResultsError:
+    return ResultsError(f"{path}: {fault}")
+
+
+def _load(path: Path) -> xarray.Dataset:
+    import xarray
+
+    return xarray.load_dataset(path, engine="netcdf4", lock=False)
+
+
 def _page(path: Path) -> str:
     from hydrodae.report.optimum import report_of_optimum
     from hydrodae.report.run import report_of_run
     from hydrodae.report.study import report_of_study
 
     if path.suffix == ".nc":
-        import xarray
-
-        try:
-            study = xarray.load_dataset(path, engine="netcdf4")
-        except (OSError, ValueError) as error:
-            raise ResultsError(f"{path}: {error}") from None
+        study = apart(path, _refused, "not a readable netCDF file", lambda: _load(path))
         if "study" in study.attrs and "best" in study and "goal" in study.attrs:
             return report_of_optimum(path, study)
         if "status" not in study or "study" not in study.attrs:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import difflib
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +17,7 @@ import numpy as np
 from hydrodae.results.files import ChannelError, ResultsError, find, identity, name_of, plain, real
 from hydrodae.results.sampling import FEWEST, PERIODS
 from hydrodae.support.arrays import Array
-from hydrodae.support.damaged import opened
+from hydrodae.support.damaged import Result, reading
 
 if TYPE_CHECKING:
     import xarray
@@ -121,6 +122,31 @@ class Channel:
         return xarray.DataArray(self.values, coords, dims, name=self.name, attrs=self.attributes)
 
 
+@dataclass(frozen=True)
+class _Header:
+    """What `Recording` reads at once: attributes, names of channels and tables, times."""
+
+    attributes: dict[str, Any]
+    statistics: dict[str, Any]
+    names: tuple[str, ...]
+    impacts: tuple[str, ...]
+    errors: tuple[str, ...]
+    time: Array
+
+
+def _samples(name: str, count: int, file: h5py.File) -> tuple[Array, dict[str, Any]]:
+    """First samples of a channel, and its attributes."""
+    dataset = file[name]
+    kept = {key: plain(v) for key, v in dataset.attrs.items() if key != "DIMENSION_LIST"}
+    return real(dataset[:count]), kept
+
+
+def _table(name: str, file: h5py.File) -> tuple[Array, list[str]]:
+    """Rows of a table of impacts, and the units of its columns."""
+    dataset = file[name]
+    return real(dataset[:]), str(plain(dataset.attrs["unit"])).split(", ")
+
+
 class Recording(Mapping[str, "xarray.DataArray"]):
     """Header and channels of a results file, each read when it is first asked for."""
 
@@ -141,13 +167,19 @@ class Recording(Mapping[str, "xarray.DataArray"]):
             raise ResultsError(
                 f"{self.path}: is a case, or a study, and no results file: run it first"
             )
-        with opened(
-            self.path, _unreadable, "not a readable results file", search=not sound
-        ) as file:
-            self._read_header(file)
+        self._sound = sound
+        found = self._reading("not a readable results file", self._read_header, search=True)
+        self._header, self._statistics = found.attributes, found.statistics
+        self._names, self._time = found.names, found.time
+        self._impacts, self._errors = found.impacts, found.errors
         self._identity = identity(self.path)
 
-    def _read_header(self, file: h5py.File) -> None:
+    def _reading(
+        self, what: str, read: Callable[[h5py.File], Result], search: bool = False
+    ) -> Result:
+        return reading(self.path, _unreadable, what, read, search=search, sound=self._sound)
+
+    def _read_header(self, file: h5py.File) -> _Header:
         found = file.attrs.get("format")
         if found != FORMAT:
             what = "a hydrodynamic database, and " * (found == "hydrodae-hydro")
@@ -162,12 +194,12 @@ class Recording(Mapping[str, "xarray.DataArray"]):
             raise ResultsError(
                 f"{self.path}: format version {version}; this hydrodae reads {FORMAT_VERSION}"
             )
-        self._header = {name_of(key): plain(value) for key, value in file.attrs.items()}
-        if not isinstance(self._header.get("status"), str):
+        header = {name_of(key): plain(value) for key, value in file.attrs.items()}
+        if not isinstance(header.get("status"), str):
             raise ResultsError(f"{self.path}: damaged: it has no status")
         solver = file.get("solver")
         attributes = {} if solver is None else solver.attrs
-        self._statistics = {name_of(key): plain(value) for key, value in attributes.items()}
+        statistics = {name_of(key): plain(value) for key, value in attributes.items()}
         names: list[str] = []
 
         def note(name: bytes, node: h5py.h5o.ObjInfo) -> None:
@@ -179,7 +211,7 @@ class Recording(Mapping[str, "xarray.DataArray"]):
                 names.append(text)
 
         h5py.h5o.visit(file.id, note, info=True)  # without an object of h5py for each
-        self._impacts, self._errors = (
+        impacts, errors = (
             tuple(name.removeprefix(group) for name in names if name.startswith(group))
             for group in (_IMPACTS, _ACCURACY)
         )
@@ -191,11 +223,17 @@ class Recording(Mapping[str, "xarray.DataArray"]):
         if "time" not in channels or file["time"].ndim != 1:
             raise ResultsError(f"{self.path}: damaged: it has no list of times")
         samples = len(file["time"])
-        if self.status == "running":
+        if header["status"] == "running":
             # A killed run may have died between two channels: keep the samples that all have.
             samples = min(len(file[name]) if file[name].ndim else 0 for name in channels)
-        self._time: Array = real(file["time"][:samples])
-        self._names = tuple(name for name in channels if name != "time")
+        return _Header(
+            attributes=header,
+            statistics=statistics,
+            names=tuple(name for name in channels if name != "time"),
+            impacts=impacts,
+            errors=errors,
+            time=real(file["time"][:samples]),
+        )
 
     def __getitem__(self, name: str) -> xarray.DataArray:
         if name not in self._labelled:
@@ -274,9 +312,9 @@ class Recording(Mapping[str, "xarray.DataArray"]):
         """
         tables = {}
         for name in self._impacts:
-            with opened(self.path, _unreadable, f"impacts on {name} are damaged") as file:
-                values = real(file[_IMPACTS + name][:])
-                units = str(plain(file[_IMPACTS + name].attrs["unit"])).split(", ")
+            values, units = self._reading(
+                f"impacts on {name} are damaged", partial(_table, _IMPACTS + name)
+            )
             if values.ndim != 2 or values.shape[1] not in (3, 4) or len(units) != values.shape[1]:
                 raise ResultsError(f"{self.path}: impacts on {name} are damaged")
             keys = ("time", "impulse", "energy_lost", "peak_force")
@@ -296,10 +334,12 @@ class Recording(Mapping[str, "xarray.DataArray"]):
             The tables are damaged.
         """
         if self._accuracy is None:
-            self._accuracy = {}
-            with opened(self.path, _unreadable, "accuracy is damaged") as file:
-                for name in self._errors:
-                    self._accuracy[name] = self._motion_error(name, file[_ACCURACY + name])
+            self._accuracy = self._reading(
+                "accuracy is damaged",
+                lambda file: {
+                    name: self._motion_error(name, file[_ACCURACY + name]) for name in self._errors
+                },
+            )
         return dict(self._accuracy)
 
     def _motion_error(self, name: str, table: h5py.Dataset) -> MotionError:
@@ -420,14 +460,9 @@ class Recording(Mapping[str, "xarray.DataArray"]):
             raise ResultsError(
                 f"{self.path}: the file has changed since it was opened; read it again"
             )
-        damaged = f"channel {name} is damaged"
-        with opened(self.path, _unreadable, damaged) as file:
-            values = real(file[name][: len(self._time)])
-            attributes = {
-                key: plain(value)
-                for key, value in file[name].attrs.items()
-                if key != "DIMENSION_LIST"
-            }
+        values, attributes = self._reading(
+            f"channel {name} is damaged", partial(_samples, name, len(self._time))
+        )
         if "unit" in attributes:
             attributes["units"] = attributes["unit"]  # the name that xarray and netCDF know
         labelled = values.ndim == 2 and (

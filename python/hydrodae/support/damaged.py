@@ -6,10 +6,14 @@ import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TypeVar
 
 import h5py
 
 from hydrodae.errors import HydrodaeError
+from hydrodae.support.child import ChildEnded, in_child
+
+Result = TypeVar("Result")
 
 #: Start of a collection of texts of variable length: HDF5 File Format Specification, III.E.
 _COLLECTION = re.compile(rb"GCOL\x01\0\0\0(.{8})", re.DOTALL)
@@ -47,11 +51,16 @@ def _sound(objects: bytes) -> bool:
     return True
 
 
-@contextmanager
-def opened(
-    path: Path, error: Callable[[Path, str], HydrodaeError], what: str, *, search: bool = False
-) -> Iterator[h5py.File]:
-    """Open an HDF5 file for reading.
+def reading(
+    path: Path,
+    error: Callable[[Path, str], HydrodaeError],
+    what: str,
+    read: Callable[[h5py.File], Result],
+    *,
+    search: bool = False,
+    sound: bool = False,
+) -> Result:
+    """Return what a function reads of an HDF5 file.
 
     Parameters
     ----------
@@ -63,18 +72,60 @@ def opened(
         something is missing.
     what : str
         Said of the file then, for example "not a readable results file".
+    read : callable
+        Takes the open file. It runs in a child process: what it changes is lost, and what it
+        returns must not belong to the file.
     search : bool
         Search it for what the HDF5 library would read for ever.
+    sound : bool
+        This process has written the file: no search, and no child.
     """
+
+    def work() -> Result:
+        with h5py.File(path, "r") as file:
+            return read(file)
+
+    if sound:
+        with guarded(path, error, what):
+            return work()
     if search and (at := _damaged_texts(path)) is not None:
         raise error(path, f"{what}: a collection of texts at byte {at} is damaged")
-    with guarded(path, error, what), h5py.File(path, "r") as file:
-        yield file
+    return apart(path, error, what, work)
+
+
+def apart(
+    path: Path, error: Callable[[Path, str], HydrodaeError], what: str, work: Callable[[], Result]
+) -> Result:
+    """Return what a function returns that calls the HDF5 library, in a child process.
+
+    On damaged files, libraries that are written in C read and write beyond their memory. The child
+    ends then, or its memory is spoilt; this process never takes a damaged file into its own.
+
+    Parameters
+    ----------
+    path, error, what
+        As `reading`.
+    work : callable
+        It returns objects of Python and arrays, which must not belong to an open file.
+    """
+
+    def guard() -> Result:
+        with guarded(path, error, what):
+            return work()
+
+    try:
+        return in_child(guard)
+    except ChildEnded as end:
+        if end.fault:
+            fault = f"is damaged: reading it ended the HDF5 library by {end}; export it again"
+        else:
+            fault = f"reading it was ended by {end}; is memory short?"
+        raise error(path, fault) from None
 
 
 @contextmanager
 def guarded(path: Path, error: Callable[[Path, str], HydrodaeError], what: str) -> Iterator[None]:
-    """Raise one error for everything that the contents of a file make impossible, as `opened`."""
+    """Raise one error for everything that the contents of a file make impossible, as `reading`."""
     try:
         yield
     except HydrodaeError:

@@ -13,6 +13,7 @@ from pathlib import Path
 import h5py
 
 from hydrodae.errors import CaseError
+from hydrodae.support.damaged import reading
 
 DATABASE = "hydrodynamic database"
 RESULTS = "results file"
@@ -158,18 +159,25 @@ def kind_of(path: Path) -> str | None:
 
 def _kind_of_hdf5(path: Path) -> str:
     try:
-        with h5py.File(path) as file:
-            if "_NCProperties" in file.attrs:  # a copy of results too, with their attributes
-                return NETCDF
-            marks = file.attrs.get("format", "")
-            made = marks.decode() if isinstance(marks, bytes) else str(marks)
-            if made == "hydrodae-hydro":
-                return DATABASE
-            if made == "hydrodae-results":
-                return RESULTS
-            return BEMIO if "simulation_parameters" in file else HDF5
-    except OSError:
+        return reading(path, _unknown, HDF5, _kind_of_open)
+    except CaseError:
         return HDF5
+
+
+def _unknown(path: Path, fault: str) -> CaseError:
+    return CaseError(f"{path}: {fault}")
+
+
+def _kind_of_open(file: h5py.File) -> str:
+    if "_NCProperties" in file.attrs:  # a copy of results too, with their attributes
+        return NETCDF
+    marks = file.attrs.get("format", "")
+    made = marks.decode() if isinstance(marks, bytes) else str(marks)
+    if made == "hydrodae-hydro":
+        return DATABASE
+    if made == "hydrodae-results":
+        return RESULTS
+    return BEMIO if "simulation_parameters" in file else HDF5
 
 
 def _kind_of_text(path: Path, head: bytes) -> str:

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 import h5py
 import numpy as np
 
+from hydrodae.hdb.database.files import DAMAGED, damaged
 from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.support.damaged import reading
 from hydrodae.viewer.source import Source
 from hydrodae.viewer.stage import Sea
 
@@ -25,10 +28,14 @@ def make_sea(source: Source, tables: Mapping[str, Any]) -> tuple[Sea | None, lis
         return None, []
     depth, gravity = environment.get("water_depth", np.inf), environment.get("gravity", 9.81)
     if path:
-        with h5py.File(path, "r") as file:
-            depth, gravity = float(file.attrs["water_depth"]), float(file.attrs["gravity"])
+        depth, gravity = reading(Path(path), damaged, DAMAGED, _water)
     waves, notes = _waves(source, depth, gravity)
     return Sea(waves, float(tables.get("sea", {}).get("ramp", 0.0)), depth), notes
+
+
+def _water(file: h5py.File) -> tuple[float, float]:
+    """Depth [m] and gravity [m/s2] of a database."""
+    return float(file.attrs["water_depth"]), float(file.attrs["gravity"])
 
 
 def _waves(source: Source, depth: float, gravity: float) -> tuple[np.ndarray[Any, Any], list[str]]:

@@ -31,7 +31,7 @@ from hydrodae.hdb.database.tables import Body, Tables
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import bodies_of
 from hydrodae.support import outputs
-from hydrodae.support.damaged import opened
+from hydrodae.support.damaged import reading
 
 if TYPE_CHECKING:
     from hydrodae.hdb.memory import ExponentialMemory
@@ -62,14 +62,19 @@ def is_hydro_file(path: Path) -> bool:
     """Return whether a file is a `hydro.h5` (by its root attribute)."""
     if not h5py.is_hdf5(path):
         return False
-    with opened(path, damaged, DAMAGED, search=True) as f:
-        return bool(_text(f.attrs.get("format", "")) == FORMAT)
+    return reading(path, damaged, DAMAGED, holds_format, search=True)
+
+
+def holds_format(f: h5py.File) -> bool:
+    """Return whether an open file is a `hydro.h5`."""
+    return _text(f.attrs.get("format", "")) == FORMAT
 
 
 def is_single(path: str | Path) -> bool:
     """Return whether a `hydro.h5` stores its tables in single precision."""
-    with opened(Path(path), damaged, DAMAGED) as f:
-        return bool(f["added_mass"].dtype == np.float32)
+    return reading(
+        Path(path), damaged, DAMAGED, lambda f: bool(f["added_mass"].dtype == np.float32)
+    )
 
 
 def write(database: Tables, path: str | Path, *, kernel: bool = True, single: bool = False) -> None:
@@ -128,17 +133,20 @@ def read(path: str | Path) -> dict[str, Any]:
         raise DatabaseError("no such file").about("missing", file=source)
     if not h5py.is_hdf5(source):
         raise DatabaseError("not an HDF5 file").about("format", file=source)
-    with opened(source, damaged, DAMAGED, search=True) as f:
-        if _text(f.attrs.get("format", "")) != FORMAT:
-            raise DatabaseError(f"not a {FORMAT} file; make one with 'hydrodae hdb import'").about(
-                "format", file=source
-            )
-        if int(f.attrs.get("format_version", 0)) > FORMAT_VERSION:
-            raise DatabaseError("written by a newer hydrodae (format_version)").about(
-                "unsupported", "format_version", file=source
-            )
-        _refuse_oversized(source, f)
-        return _read(f)
+    return reading(source, damaged, DAMAGED, lambda f: _read_whole(source, f), search=True)
+
+
+def _read_whole(source: Path, f: h5py.File) -> dict[str, Any]:
+    if not holds_format(f):
+        raise DatabaseError(f"not a {FORMAT} file; make one with 'hydrodae hdb import'").about(
+            "format", file=source
+        )
+    if int(f.attrs.get("format_version", 0)) > FORMAT_VERSION:
+        raise DatabaseError("written by a newer hydrodae (format_version)").about(
+            "unsupported", "format_version", file=source
+        )
+    _refuse_oversized(source, f)
+    return _read(f)
 
 
 def _refuse_oversized(source: Path, f: h5py.File) -> None:

@@ -15,13 +15,13 @@ import numpy as np
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.coordinates import unique_names
-from hydrodae.hdb.database.files import damaged
+from hydrodae.hdb.database.files import DAMAGED, damaged
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import six_of_each
 from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
 from hydrodae.support.arrays import Array
-from hydrodae.support.damaged import opened
+from hydrodae.support.damaged import reading
 from hydrodae.support.naming import names_file
 
 #: Codes whose A_inf is an estimate of BEMIO: the mean over the lower part of its own grid.
@@ -47,8 +47,7 @@ def read_bemio(path: Path) -> SourceData:
     DatabaseError
         Something is missing or has an unexpected shape; the message names file and dataset.
     """
-    with opened(path, damaged, "incomplete or damaged") as f:
-        return _read(path, f)
+    return reading(path, damaged, DAMAGED, lambda f: _read(path, f))
 
 
 def _read(path: Path, f: h5py.File) -> SourceData:

@@ -8,6 +8,7 @@ and radiating_dof changed between versions.
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any, Literal
 
 import numpy as np
 import xarray as xr
@@ -24,12 +25,13 @@ from hydrodae.hdb.readers.capytaine_statics import attach_bodies, text
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.relations.dispersion import frequency
 from hydrodae.support.arrays import Array, Complex
-from hydrodae.support.damaged import guarded
+from hydrodae.support.damaged import apart, guarded
 from hydrodae.support.naming import names_file
 
 FREQUENCY_AXES = ("omega", "period", "freq", "wavenumber", "wavelength")
 #: Deflate, which netCDF-4 packs with, makes data smaller by 1032 times at most.
 MOST_PACKED = 1032
+UNREADABLE = "not a readable netCDF file"
 FORCES = {
     "froude_krylov": "Froude_Krylov_force",
     "diffraction": "diffraction_force",
@@ -56,15 +58,12 @@ def read_capytaine(path: Path) -> SourceData:
     DatabaseError
         Not such a file, something missing, or dimensions that cannot be one database.
     """
-    with guarded(path, damaged, "not a readable netCDF file"):
-        return _read(path)
+    with guarded(path, damaged, UNREADABLE):
+        return _read(path, load_dataset(path))
 
 
-def _read(path: Path) -> SourceData:
-    with open_dataset(path) as opened:
-        if opened.nbytes > MOST_PACKED * path.stat().st_size:
-            raise damaged(path, f"it cannot hold the {opened.nbytes:.3g} bytes that it states")
-        ds = _one_case(opened.load())
+def _read(path: Path, ds: xr.Dataset) -> SourceData:
+    ds = _one_case(ds)
     for name in ("added_mass", "radiation_damping"):
         if name not in ds:
             raise DatabaseError(f"no variable {name!r} in it").about("missing", name)
@@ -113,19 +112,29 @@ def _read(path: Path) -> SourceData:
     return data
 
 
-def open_dataset(path: Path) -> xr.Dataset:
-    """Open a netCDF file: netCDF-3 with scipy, netCDF-4 with netCDF4.
+def load_dataset(path: Path) -> xr.Dataset:
+    """Load a netCDF file: netCDF-3 with scipy, netCDF-4 with netCDF4.
 
     netCDF4 reads netCDF-3 as well, but fills what is missing of a file that is cut short with zeros
     and reports no error. scipy refuses such a file.
     """
     with open(path, "rb") as f:
         magic = f.read(4)
-    engine = "scipy" if magic[:3] == b"CDF" else "netcdf4"
+    if magic[:3] == b"CDF":
+        return _load(path, "scipy")
+    # the child alone reads: it waits for no lock that another thread had as it was made
+    return apart(path, damaged, UNREADABLE, lambda: _load(path, "netcdf4", lock=False))
+
+
+def _load(path: Path, engine: Literal["scipy", "netcdf4"], **how: Any) -> xr.Dataset:
     try:
-        return xr.open_dataset(path, engine=engine)
+        opened = xr.open_dataset(path, engine=engine, **how)
     except (OSError, ValueError, TypeError, LookupError, AttributeError, RuntimeError) as error:
-        raise damaged(path, f"not a readable netCDF file ({error})") from error
+        raise damaged(path, f"{UNREADABLE} ({error})") from error
+    with opened:
+        if opened.nbytes > MOST_PACKED * path.stat().st_size:
+            raise damaged(path, f"it cannot hold the {opened.nbytes:.3g} bytes that it states")
+        return opened.load()
 
 
 def _headings(ds: xr.Dataset) -> Array:

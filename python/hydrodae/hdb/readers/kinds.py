@@ -13,7 +13,7 @@ from hydrodae.hdb.readers.below import runs_below
 from hydrodae.hdb.readers.bemio import is_bemio_file
 from hydrodae.hdb.readers.foreign import foreign, foreign_in
 from hydrodae.hdb.readers.formats import expected_files, formats
-from hydrodae.support.damaged import opened
+from hydrodae.support.damaged import reading
 
 
 def resolve(source: str | Path) -> tuple[Path, str]:
@@ -162,16 +162,8 @@ def _file(path: Path) -> str:
     if magic[:3] == b"CDF":
         return "capytaine"
     if h5py.is_hdf5(path):
-        if files.is_hydro_file(path):
-            return "hydro"
-        with opened(path, files.damaged, "not a readable HDF5 file") as f:
-            if "added_mass" in f and "radiating_dof" in f:
-                return "capytaine"
-            if is_bemio_file(f):
-                return "bemio"
-            holds = ", ".join(sorted(f)[:6]) or "nothing"
-        raise DatabaseError(f"an HDF5 file of another kind (it holds {holds})").about(
-            "unsupported", file=path
+        return reading(
+            path, files.damaged, "not a readable HDF5 file", lambda f: _hdf5(path, f), search=True
         )
     for name, format in formats().items():
         if format.find(path) is not None:
@@ -183,6 +175,19 @@ def _file(path: Path) -> str:
         f"not a Nemoh folder, a netCDF file of Capytaine, a BEMIO .h5, "
         f"{expected_files()} or a hydro.h5 of hydrodae"
     ).about("unsupported", file=path)
+
+
+def _hdf5(path: Path, f: h5py.File) -> str:
+    if files.holds_format(f):
+        return "hydro"
+    if "added_mass" in f and "radiating_dof" in f:
+        return "capytaine"
+    if is_bemio_file(f):
+        return "bemio"
+    holds = ", ".join(sorted(f)[:6]) or "nothing"
+    raise DatabaseError(f"an HDF5 file of another kind (it holds {holds})").about(
+        "unsupported", file=path
+    )
 
 
 def _similar(path: Path) -> str:
