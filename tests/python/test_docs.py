@@ -20,6 +20,7 @@ from tests.python.test_tcp import free_port
 import hydrodae
 from hydrodae import _core
 from hydrodae.commands import cli
+from hydrodae.commands.parser import parser_of
 from hydrodae.starters import create
 from hydrodae.study.sweep.plan import read_study
 from hydrodae.study.sweep.problem import read_problem
@@ -126,7 +127,7 @@ def test_no_code_stands_in_indented_blocks(repository: Path) -> None:
 
 def can_be_parsed(arguments: list[str]) -> bool:
     try:
-        cli._parser(arguments[:1]).parse_args(arguments)
+        parser_of(arguments[0]).parse_args(arguments)
     except SystemExit as end:  # of --help and --version, or a wrong argument
         return end.code == 0
     return True

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 from tests.python.doc_blocks import pages
 
-from hydrodae.commands import cli
+from hydrodae.commands.parser import ALL, parser_of
 
 Comments = Callable[[str], Iterator[tuple[int, str, bool]]]
 
@@ -119,7 +119,7 @@ def parsers(parser: argparse.ArgumentParser, name: str) -> Iterator[tuple[str, s
 def test_help_keeps_to_the_rules() -> None:
     broken = [
         f"{name}: {fault}"
-        for name, text in parsers(cli._parser(cli.ALL), "hydrodae")
+        for name, text in parsers(parser_of(ALL), "hydrodae")
         for fault in faults(text)
     ]
     assert not broken, "\n".join(broken)

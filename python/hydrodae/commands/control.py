@@ -5,9 +5,8 @@ from __future__ import annotations
 import argparse
 
 
-def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    """Add the command to those of `hydrodae`."""
-    parser = commands.add_parser("control", help="design a controller for a case")
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
     tasks = parser.add_subparsers(metavar="TASK", required=True)
     design = tasks.add_parser(
         "design",
@@ -39,7 +38,7 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         default=[],
         help="replace a value of the case, such as force.pto.damping=0; may be repeated",
     )
-    design.set_defaults(call=run, library=[])
+    design.set_defaults(library=[])
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -6,10 +6,12 @@ import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-
-import h5py
+from typing import TYPE_CHECKING
 
 from hydrodae.errors import HydrodaeError
+
+if TYPE_CHECKING:
+    import h5py
 
 #: Start of a collection of texts of variable length: HDF5 File Format Specification, III.E.
 _COLLECTION = re.compile(rb"GCOL\x01\0\0\0(.{8})", re.DOTALL)
@@ -66,6 +68,8 @@ def opened(
     search : bool
         Search it for what the HDF5 library would read for ever.
     """
+    import h5py
+
     if search and (at := _damaged_texts(path)) is not None:
         raise error(path, f"{what}: a collection of texts at byte {at} is damaged")
     with guarded(path, error, what), h5py.File(path, "r") as file:

@@ -10,8 +10,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-import h5py
-
 from hydrodae.errors import CaseError
 
 DATABASE = "hydrodynamic database"
@@ -147,6 +145,8 @@ def kind_of(path: Path) -> str | None:
             head = file.read(4096)
     except OSError as error:
         raise CaseError(f"{path}: {error.strerror}") from None
+    import h5py  # with numpy, longer to load than a short run takes
+
     if h5py.is_hdf5(path):
         return _kind_of_hdf5(path)
     if head.startswith(b"CDF"):
@@ -157,6 +157,8 @@ def kind_of(path: Path) -> str | None:
 
 
 def _kind_of_hdf5(path: Path) -> str:
+    import h5py
+
     try:
         with h5py.File(path) as file:
             if "_NCProperties" in file.attrs:  # a copy of results too, with their attributes
