@@ -12,11 +12,11 @@ from tests import scenes
 from tests.attack import suite
 from tests.attack.family import FAMILIES
 from tests.scenes import driven, run_for, slide, table
+from tests.stability import Method
+from tests.stability.grid import PASS, run_cell
 
 import hydrodae
 from hydrodae.commands.cli import main
-from hydrodae.study.stability import Method
-from hydrodae.study.stability.grid import PASS, run_cell
 
 SCENES = suite.all_scenes()
 PENDULUM = """

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from tests.errors import wrong
 from tests.scenes import bouncing_ball, pendulum, slide, table
+from tests.stability import switching
 
 import hydrodae
 from hydrodae.errors import SolverError
-from hydrodae.study.stability import switching
 
 METHODS = {
     "ida": "",

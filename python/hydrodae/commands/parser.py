@@ -99,12 +99,6 @@ COMMANDS = {
         "error is at most E, as lines to paste into the case.",
     ),
     "hdb": ("prepare and look at hydrodynamic databases", None),
-    "stability-map": (
-        "run the methods on hard scenes and map which pass, stop or go wrong",
-        "Run the methods on hard scenes. A cell shows the error of a run that passed, or that it "
-        "stopped, was refused (-), or returned success with a wrong motion. Exit code 1 if one "
-        "did.",
-    ),
     "keys": (
         "the keys of a case file: unit, default, range, meaning",
         "List the tables of a case file, or the keys of one table or of one type of entry, such as "
@@ -150,7 +144,7 @@ def parser_of(command: str) -> argparse.ArgumentParser:
         purpose, description = COMMANDS[name]
         own = commands.add_parser(name, help=purpose, description=description)
         if command in (name, ALL):
-            module = import_module(f"hydrodae.commands.{name.replace('-map', '')}")
+            module = import_module(f"hydrodae.commands.{name}")
             own.set_defaults(call=module.run)
             module.add_arguments(own)
     add_examples(commands)
