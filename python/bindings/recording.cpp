@@ -1,6 +1,10 @@
+#include <memory>
+#include <stdexcept>
+
 #include <pybind11/stl.h>
 
 #include "bindings.h"
+#include "hydrodae/core/error.h"
 #include "hydrodae/io/results_reader.h"
 
 namespace py = pybind11;
@@ -44,10 +48,10 @@ py::list datasets(const ResultsReader& file) {
   return out;
 }
 
-py::tuple read(const ResultsReader& file, const std::string& dataset, hsize_t rows) {
+py::tuple read(const ResultsReader& file, const std::string& dataset, unsigned long long rows) {
   const ResultsReader::Shape shape = reading([&] { return file.shape_of_rows(dataset, rows); });
   std::size_t bytes = sizeof(double);
-  for (const hsize_t n : shape)
+  for (const unsigned long long n : shape)
     bytes *= static_cast<std::size_t>(n);
   // NumPy and memoryview share its memory.
   const auto numbers = py::reinterpret_steal<py::object>(
@@ -71,7 +75,8 @@ void bind_recording(py::module_& module) {
            "`search`: look first for texts that the HDF5 library would read for ever.")
       .def("close", &ResultsReader::close)
       .def("datasets", &datasets, "Paths of all datasets.")
-      .def("has", &ResultsReader::has, py::arg("member"), "Whether there is such a member of the root.")
+      .def("has", &ResultsReader::has, py::arg("member"),
+           "Whether there is such a member of the root.")
       .def("attributes", &attributes, py::arg("object"), "Attributes of a group or dataset.")
       .def(
           "shape",

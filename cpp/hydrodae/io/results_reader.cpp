@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "hydrodae/io/hdf5.h"
 #include "hydrodae/io/hdf5_collections.h"
 
 namespace hydrodae::io {
@@ -37,36 +38,73 @@ bool holds_numbers(hid_t type) {
   return kind == H5T_FLOAT || kind == H5T_INTEGER;
 }
 
+std::string text_of(hid_t attribute, hid_t type, const std::string& what) {
+  if (checked(H5Tis_variable_str(type), what) > 0) {
+    const Handle memory = checked(H5Tcopy(type), H5Tclose, what);
+    char* text = nullptr;
+    checked(H5Aread(attribute, memory, &text), what);
+    const std::string out = text ? text : "";
+    H5free_memory(text);
+    return out;
+  }
+  std::string out(H5Tget_size(type), '\0');
+  checked(H5Aread(attribute, type, out.data()), what);
+  out.resize(std::min(out.find('\0'), out.size()));
+  return out;
+}
+
 } // namespace
 
-ResultsReader::ResultsReader(const std::string& path, bool search) {
+struct ResultsReader::Impl {
+  hdf5::Quiet quiet;
+  double size = 0.0; ///< of the file in bytes
+  Handle file;
+
+  Handle open(const std::string& dataset) const {
+    return checked(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), H5Dclose, dataset);
+  }
+  Value value_of(hid_t attribute, const std::string& what) const;
+  void require_held(double bytes, const std::string& what) const {
+    if (bytes > densest * size)
+      throw CaseError(what + ": claims more than the file can hold");
+  }
+};
+
+ResultsReader::ResultsReader(const std::string& path, bool search)
+    : impl_(std::make_unique<Impl>()) {
   if (search)
     hdf5::check_collections(path);
   std::error_code ignored; // what cannot be asked cannot be opened either
-  size_ = static_cast<double>(std::filesystem::file_size(path, ignored));
-  file_ = checked(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "cannot be opened");
+  impl_->size = static_cast<double>(std::filesystem::file_size(path, ignored));
+  impl_->file =
+      checked(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "cannot be opened");
 }
+
+ResultsReader::~ResultsReader() = default;
+
+void ResultsReader::close() { impl_->file.reset(); }
 
 std::vector<std::string> ResultsReader::datasets() const {
   std::vector<std::string> names;
-  const auto note = [](hid_t, const char* name, const H5O_info_t* object, void* out) -> herr_t {
+  // HDF5 1.12 has given another name to the type of `object`.
+  const auto note = [](hid_t, const char* name, const auto* object, void* out) -> herr_t {
     if (object->type == H5O_TYPE_DATASET)
       static_cast<std::vector<std::string>*>(out)->emplace_back(name);
     return 0;
   };
-  checked(H5Ovisit2(file_, H5_INDEX_NAME, H5_ITER_INC, note, &names, H5O_INFO_BASIC),
+  checked(H5Ovisit2(impl_->file, H5_INDEX_NAME, H5_ITER_INC, note, &names, H5O_INFO_BASIC),
           "its names cannot be read");
   return names;
 }
 
 bool ResultsReader::has(const std::string& member) const {
-  return H5Lexists(file_, member.c_str(), H5P_DEFAULT) > 0;
+  return H5Lexists(impl_->file, member.c_str(), H5P_DEFAULT) > 0;
 }
 
 std::vector<std::pair<std::string, ResultsReader::Value>>
 ResultsReader::attributes(const std::string& object) const {
   const std::string what = object + ": attributes cannot be read";
-  const Handle owner = checked(H5Oopen(file_, object.c_str(), H5P_DEFAULT), H5Oclose, what);
+  const Handle owner = checked(H5Oopen(impl_->file, object.c_str(), H5P_DEFAULT), H5Oclose, what);
   std::vector<std::string> names;
   const auto note = [](hid_t, const char* name, const H5A_info_t*, void* out) -> herr_t {
     static_cast<std::vector<std::string>*>(out)->emplace_back(name);
@@ -79,12 +117,12 @@ ResultsReader::attributes(const std::string& object) const {
       continue;
     const std::string which = "attribute " + name;
     const Handle attribute = checked(H5Aopen(owner, name.c_str(), H5P_DEFAULT), H5Aclose, which);
-    out.emplace_back(name, value_of(attribute, which));
+    out.emplace_back(name, impl_->value_of(attribute, which));
   }
   return out;
 }
 
-ResultsReader::Value ResultsReader::value_of(hid_t attribute, const std::string& what) const {
+ResultsReader::Value ResultsReader::Impl::value_of(hid_t attribute, const std::string& what) const {
   const Handle type = checked(H5Aget_type(attribute), H5Tclose, what);
   const Handle space = checked(H5Aget_space(attribute), H5Sclose, what);
   const Shape shape = shape_in(space, what);
@@ -108,37 +146,14 @@ ResultsReader::Value ResultsReader::value_of(hid_t attribute, const std::string&
   return numbers;
 }
 
-std::string ResultsReader::text_of(hid_t attribute, hid_t type, const std::string& what) const {
-  if (checked(H5Tis_variable_str(type), what) > 0) {
-    const Handle memory = checked(H5Tcopy(type), H5Tclose, what);
-    char* text = nullptr;
-    checked(H5Aread(attribute, memory, &text), what);
-    const std::string out = text ? text : "";
-    H5free_memory(text);
-    return out;
-  }
-  std::string out(H5Tget_size(type), '\0');
-  checked(H5Aread(attribute, type, out.data()), what);
-  out.resize(std::min(out.find('\0'), out.size()));
-  return out;
-}
-
-void ResultsReader::require_held(double bytes, const std::string& what) const {
-  if (bytes > densest * size_)
-    throw CaseError(what + ": claims more than the file can hold");
-}
-
-Handle ResultsReader::open(const std::string& dataset) const {
-  return checked(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose, dataset);
-}
-
 ResultsReader::Shape ResultsReader::shape(const std::string& dataset) const {
-  const Handle id = open(dataset);
+  const Handle id = impl_->open(dataset);
   return shape_in(checked(H5Dget_space(id), H5Sclose, dataset), dataset);
 }
 
-ResultsReader::Shape ResultsReader::shape_of_rows(const std::string& dataset, hsize_t rows) const {
-  const Handle id = open(dataset);
+ResultsReader::Shape ResultsReader::shape_of_rows(const std::string& dataset,
+                                                  unsigned long long rows) const {
+  const Handle id = impl_->open(dataset);
   const Handle type = checked(H5Dget_type(id), H5Tclose, dataset);
   if (!holds_numbers(type))
     throw CaseError("expected numbers, found another type");
@@ -146,7 +161,7 @@ ResultsReader::Shape ResultsReader::shape_of_rows(const std::string& dataset, hs
   if (!found.empty())
     found.front() = std::min(found.front(), rows);
   const double bytes = count_in(found) * static_cast<double>(H5Tget_size(type));
-  require_held(bytes, dataset);
+  impl_->require_held(bytes, dataset);
   // HDF5 before 1.12 reads beyond what a damaged compact dataset keeps in its header.
   const Handle creation = checked(H5Dget_create_plist(id), H5Pclose, dataset);
   if (H5Pget_layout(creation) == H5D_COMPACT &&
@@ -156,7 +171,7 @@ ResultsReader::Shape ResultsReader::shape_of_rows(const std::string& dataset, hs
 }
 
 void ResultsReader::read(const std::string& dataset, const Shape& rows, double* out) const {
-  const Handle id = open(dataset);
+  const Handle id = impl_->open(dataset);
   const Handle source = checked(H5Dget_space(id), H5Sclose, dataset);
   if (count_in(rows) == 0.0)
     return;

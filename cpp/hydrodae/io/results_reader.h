@@ -2,12 +2,11 @@
 /// Results files for reading: what `Results` of Python is made of.
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
-
-#include "hydrodae/io/hdf5.h"
 
 namespace hydrodae::io {
 
@@ -17,14 +16,17 @@ namespace hydrodae::io {
 class ResultsReader {
 public:
   using Value = std::variant<double, std::int64_t, std::string, std::vector<double>>;
-  using Shape = std::vector<hsize_t>;
+  using Shape = std::vector<unsigned long long>;
 
   /// Opens the file.
   /// @param search  whether to look first for texts that the HDF5 library would read for ever
   ResultsReader(const std::string& path, bool search);
+  ~ResultsReader();
+  ResultsReader(const ResultsReader&) = delete;
+  ResultsReader& operator=(const ResultsReader&) = delete;
 
   /// Nothing can be read after it.
-  void close() { file_.reset(); }
+  void close();
 
   /// Paths of all datasets, in the order of their names. They may be no UTF-8.
   std::vector<std::string> datasets() const;
@@ -37,20 +39,14 @@ public:
   Shape shape(const std::string& dataset) const;
 
   /// Shape of the first `rows` rows of a dataset of real numbers, as `read` gives them.
-  Shape shape_of_rows(const std::string& dataset, hsize_t rows) const;
+  Shape shape_of_rows(const std::string& dataset, unsigned long long rows) const;
 
   /// The numbers themselves, row by row.
   void read(const std::string& dataset, const Shape& rows, double* out) const;
 
 private:
-  hdf5::Handle open(const std::string& dataset) const;
-  Value value_of(hid_t attribute, const std::string& what) const;
-  std::string text_of(hid_t attribute, hid_t type, const std::string& what) const;
-  void require_held(double bytes, const std::string& what) const;
-
-  hdf5::Quiet quiet_;
-  double size_ = 0.0; ///< of the file in bytes
-  hdf5::Handle file_;
+  struct Impl; ///< keeps hdf5.h out of what includes this header
+  std::unique_ptr<Impl> impl_;
 };
 
 } // namespace hydrodae::io
