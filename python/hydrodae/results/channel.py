@@ -44,7 +44,7 @@ class Samples:
     def column(self, index: int = 0) -> Sequence[float]:
         """The numbers of a column, without numpy."""
         width = self.shape[1] if len(self.shape) > 1 else 1
-        return memoryview(self._bytes).cast("d")[index::width]  # type: ignore[return-value]
+        return memoryview(self._bytes).cast("d")[index::width]
 
     @cached_property
     def array(self) -> Array:

@@ -7,7 +7,7 @@ import signal
 import warnings
 import weakref
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from threading import Event, current_thread, main_thread
 from types import FrameType
@@ -232,8 +232,15 @@ class _TemporaryFolder:
     """A folder that is removed when the last object that holds it goes."""
 
     def __init__(self) -> None:
-        import shutil
         import tempfile
 
         self.path = Path(tempfile.mkdtemp(prefix="hydrodae-"))
-        weakref.finalize(self, shutil.rmtree, self.path, ignore_errors=True)
+        weakref.finalize(self, _remove, self.path)
+
+
+def _remove(folder: Path) -> None:
+    """Remove a folder of files, as far as it can be removed."""
+    with suppress(OSError):
+        for file in folder.iterdir():
+            file.unlink()
+        folder.rmdir()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -55,28 +56,28 @@ def slopes_of(
             return value(case.with_values(parameter.values(x)))
 
         slope, exact, count = derivative(at, parameter.value, here)
-        slopes.append(slope)
+        slopes.append(float(slope))
         affine.append(exact)
         calls += count
     return Found(here, np.array(slopes), tuple(affine), calls, unit)
 
 
-def derivative(at: Callable[[float], float], x: float, here: float) -> tuple[float, bool, int]:
-    """Derivative of a number with respect to x.
+def derivative(at: Callable[[float], Any], x: float, here: Any) -> tuple[Any, bool, int]:
+    """Derivative of a number, or of an array, with respect to x.
 
     Parameters
     ----------
     at : callable
-        The number at x.
+        The number or array at x, of a shape that does not change.
     x : float
-    here : float
+    here : float or array
         ``at(x)``.
 
     Returns
     -------
-    derivative : float
+    derivative : float or array
     affine : bool
-        The number is affine in x, and its derivative exact to rounding; else the formula is of
+        The value is affine in x, and its derivative exact to rounding; else the formula is of
         fourth order with a step of a thousandth of x.
     calls : int
         Of `at`.
@@ -86,10 +87,10 @@ def derivative(at: Callable[[float], float], x: float, here: float) -> tuple[flo
     CaseError
         `at` refuses both sides of x.
     """
-    seen = {0: here}
+    seen: dict[int, Any] = {0: here}
     step, calls = _first_step(at, x, here, seen)
 
-    def known(node: int) -> float:
+    def known(node: int) -> Any:
         if node not in seen:
             seen[node] = at(x + node * step)
         return seen[node]
@@ -98,13 +99,12 @@ def derivative(at: Callable[[float], float], x: float, here: float) -> tuple[flo
     affine = _is_affine([seen[n] for n in nodes])
     if not affine:
         nodes = WIDE[nodes]
-    values = np.array([known(node) for node in nodes])
-    slope = float(_weights(nodes) @ values) / step
+    slope = sum(w * known(node) for node, w in zip(nodes, _weights(nodes), strict=True)) / step
     return slope, affine, calls + max(tried, len(seen)) - 1
 
 
 def _first_step(
-    at: Callable[[float], float], x: float, here: float, seen: dict[int, float]
+    at: Callable[[float], Any], x: float, here: Any, seen: dict[int, Any]
 ) -> tuple[float, int]:
     """A thousandth of x; from zero the first of 1e-3, 1, 1000, ... that makes a change."""
     if x != 0.0:
@@ -116,12 +116,12 @@ def _first_step(
         except CaseError:
             break
         calls += 1
-        if abs(seen[1] - here) > SEEN * abs(here):
+        if _size(seen[1] - here) > SEEN * _size(here):
             break
     return step, calls - (1 in seen)
 
 
-def _nodes(value: Callable[[int], float]) -> tuple[int, ...]:
+def _nodes(value: Callable[[int], Any]) -> tuple[int, ...]:
     """Three nodes about x, on one side of it where the other one is refused."""
     refused: CaseError | None = None
     for nodes in (CENTRAL, FORWARD, BACKWARD):
@@ -136,9 +136,13 @@ def _nodes(value: Callable[[int], float]) -> tuple[int, ...]:
     raise refused
 
 
-def _is_affine(three: list[float]) -> bool:
+def _is_affine(three: list[Any]) -> bool:
     a, b, c = three
-    return abs(c - 2.0 * b + a) <= AFFINE * abs(c - a) + ROUNDING * abs(b)
+    return _size(c - 2.0 * b + a) <= AFFINE * _size(c - a) + ROUNDING * _size(b)
+
+
+def _size(value: Any) -> float:
+    return float(np.max(np.abs(value), initial=0.0))
 
 
 def _weights(nodes: tuple[int, ...]) -> Array:
