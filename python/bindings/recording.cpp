@@ -14,7 +14,7 @@ namespace {
 
 using io::ResultsReader;
 
-/// What a damaged file makes impossible is a RuntimeError; Python adds which file and channel.
+/// What cannot be read is a RuntimeError; Python adds which file and channel.
 template <class Work> auto reading(Work work) {
   try {
     return work();
@@ -67,12 +67,11 @@ py::tuple read(const ResultsReader& file, const std::string& dataset, unsigned l
 
 void bind_recording(py::module_& module) {
   py::class_<ResultsReader>(module, "ResultsReader",
-                            "A results file, open for reading. RuntimeError: it is damaged.")
-      .def(py::init([](const std::string& path, bool search) {
-             return reading([&] { return std::make_unique<ResultsReader>(path, search); });
+                            "A results file of this process, open for reading.")
+      .def(py::init([](const std::string& path) {
+             return reading([&] { return std::make_unique<ResultsReader>(path); });
            }),
-           py::arg("path"), py::arg("search"),
-           "`search`: look first for texts that the HDF5 library would read for ever.")
+           py::arg("path"))
       .def("close", &ResultsReader::close)
       .def("datasets", &datasets, "Paths of all datasets.")
       .def("has", &ResultsReader::has, py::arg("member"),

@@ -192,12 +192,9 @@ def simulate(
     """
 
 class ResultsReader:
-    """A results file, open for reading; RuntimeError where it is damaged.
+    """A results file of this process, open for reading; RuntimeError where it cannot be read."""
 
-    `search`: look first for texts that the HDF5 library would read for ever.
-    """
-
-    def __init__(self, path: bytes | str, search: bool) -> None: ...
+    def __init__(self, path: bytes | str) -> None: ...
     def close(self) -> None: ...
     def datasets(self) -> list[bytes]:
         """Paths of all datasets."""

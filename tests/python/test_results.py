@@ -9,7 +9,6 @@ import h5py
 import numpy as np
 import pytest
 
-from hydrodae import _core
 from hydrodae.results import ChannelError, Results, ResultsError
 from hydrodae.results.post import turning_points
 from hydrodae.support.units import displayed
@@ -53,13 +52,13 @@ def test_mapping_of_channels(results_file):
 def test_a_channel_is_read_once_and_only_when_asked_for(results_file, monkeypatch):
     opened = []
     results = Results.read(results_file)
-    original = _core.ResultsReader
+    original = h5py.File
 
     def noted(*arguments):
         opened.append(arguments)
         return original(*arguments)
 
-    monkeypatch.setattr(_core, "ResultsReader", noted)
+    monkeypatch.setattr(h5py, "File", noted)
     assert results.time[-1] == 100.0
     assert opened == []
     first = results["joints/hinge1/angle"]

@@ -1,10 +1,8 @@
 #include "hydrodae/io/results_reader.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "hydrodae/io/hdf5.h"
-#include "hydrodae/io/hdf5_collections.h"
 
 namespace hydrodae::io {
 namespace {
@@ -12,13 +10,7 @@ namespace {
 using hdf5::checked;
 using hdf5::Handle;
 
-/// Bytes of numbers that a byte of a file may unpack to, at most: deflate's limit (zlib, "Technical
-/// Details": 1032:1). A dataset that claims more was never written.
-constexpr double densest = 1032.0;
-
 ResultsReader::Shape shape_in(hid_t space, const std::string& what) {
-  if (H5Sget_simple_extent_type(space) == H5S_NULL)
-    throw CaseError(what + ": is empty (a null dataspace)");
   const int rank = checked(H5Sget_simple_extent_ndims(space), what);
   ResultsReader::Shape shape(static_cast<std::size_t>(rank));
   if (rank > 0)
@@ -57,25 +49,15 @@ std::string text_of(hid_t attribute, hid_t type, const std::string& what) {
 
 struct ResultsReader::Impl {
   hdf5::Quiet quiet;
-  double size = 0.0; ///< of the file in bytes
   Handle file;
 
   Handle open(const std::string& dataset) const {
     return checked(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), H5Dclose, dataset);
   }
   Value value_of(hid_t attribute, const std::string& what) const;
-  void require_held(double bytes, const std::string& what) const {
-    if (bytes > densest * size)
-      throw CaseError(what + ": claims more than the file can hold");
-  }
 };
 
-ResultsReader::ResultsReader(const std::string& path, bool search)
-    : impl_(std::make_unique<Impl>()) {
-  if (search)
-    hdf5::check_collections(path);
-  std::error_code ignored; // what cannot be asked cannot be opened either
-  impl_->size = static_cast<double>(std::filesystem::file_size(path, ignored));
+ResultsReader::ResultsReader(const std::string& path) : impl_(std::make_unique<Impl>()) {
   impl_->file =
       checked(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "cannot be opened");
 }
@@ -128,7 +110,6 @@ ResultsReader::Value ResultsReader::Impl::value_of(hid_t attribute, const std::s
   const Shape shape = shape_in(space, what);
   const H5T_class_t kind = H5Tget_class(type);
   const bool single = shape.empty();
-  require_held(count_in(shape) * static_cast<double>(H5Tget_size(type)), what);
   if (kind == H5T_STRING && single)
     return text_of(attribute, type, what);
   if (single && (kind == H5T_INTEGER || kind == H5T_ENUM)) { // h5py's bool is an enum
@@ -160,13 +141,6 @@ ResultsReader::Shape ResultsReader::shape_of_rows(const std::string& dataset,
   Shape found = shape_in(checked(H5Dget_space(id), H5Sclose, dataset), dataset);
   if (!found.empty())
     found.front() = std::min(found.front(), rows);
-  const double bytes = count_in(found) * static_cast<double>(H5Tget_size(type));
-  impl_->require_held(bytes, dataset);
-  // HDF5 before 1.12 reads beyond what a damaged compact dataset keeps in its header.
-  const Handle creation = checked(H5Dget_create_plist(id), H5Pclose, dataset);
-  if (H5Pget_layout(creation) == H5D_COMPACT &&
-      static_cast<double>(H5Dget_storage_size(id)) < bytes)
-    throw CaseError(dataset + ": holds less than its shape needs");
   return found;
 }
 

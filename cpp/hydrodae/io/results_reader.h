@@ -1,5 +1,5 @@
 #pragma once
-/// Results files for reading: what `Results` of Python is made of.
+/// Results files for reading, right after their run: what `Results` of Python is made of.
 
 #include <cstdint>
 #include <memory>
@@ -10,17 +10,14 @@
 
 namespace hydrodae::io {
 
-/// One open results file. It may be damaged, or written by another program: every function throws
-/// CaseError where the contents are not what it reads. Sizes are checked before memory is asked
-/// for.
+/// One open results file, which this process has written: damaged ones need newer versions of the
+/// HDF5 library. Every function throws CaseError where it cannot be read.
 class ResultsReader {
 public:
   using Value = std::variant<double, std::int64_t, std::string, std::vector<double>>;
   using Shape = std::vector<unsigned long long>;
 
-  /// Opens the file.
-  /// @param search  whether to look first for texts that the HDF5 library would read for ever
-  ResultsReader(const std::string& path, bool search);
+  explicit ResultsReader(const std::string& path);
   ~ResultsReader();
   ResultsReader(const ResultsReader&) = delete;
   ResultsReader& operator=(const ResultsReader&) = delete;
@@ -28,7 +25,7 @@ public:
   /// Nothing can be read after it.
   void close();
 
-  /// Paths of all datasets, in the order of their names. They may be no UTF-8.
+  /// Paths of all datasets, in the order of their names.
   std::vector<std::string> datasets() const;
 
   bool has(const std::string& member) const; ///< of the root group

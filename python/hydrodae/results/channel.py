@@ -11,6 +11,7 @@ if TYPE_CHECKING:  # numpy and xarray take longer to load than a short run takes
     import xarray
 
     from hydrodae._core import ResultsReader
+    from hydrodae.results.reader import Reader
     from hydrodae.support.arrays import Array
 
 #: Name and labels of the second dimension of a channel, by its width.
@@ -22,7 +23,7 @@ class Samples:
 
     Parameters
     ----------
-    file : ResultsReader
+    file : ResultsReader or Reader
         Where they are read now.
     name : str
         Path of the dataset.
@@ -35,7 +36,7 @@ class Samples:
         (rows,) or (rows, columns); others in a damaged file.
     """
 
-    def __init__(self, file: ResultsReader, name: str, rows: int = 2**62) -> None:
+    def __init__(self, file: ResultsReader | Reader, name: str, rows: int = 2**62) -> None:
         self._bytes, self.shape = file.read(name, rows)
 
     def __len__(self) -> int:

@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 from hydrodae.results.channel import COMPONENTS, Samples
 from hydrodae.results.files import ResultsError
-from hydrodae.support.damaged import guarded
+from hydrodae.support import damaged
 
 if TYPE_CHECKING:
     from hydrodae._core import ResultsReader
+    from hydrodae.results.reader import Reader
 
 FORMAT = "hydrodae-results"
 FORMAT_VERSION = 1
@@ -27,7 +28,9 @@ ACCURACY = "accuracy/"
 
 
 @contextmanager
-def opened(path: Path, what: str, *, search: bool = False) -> Iterator[ResultsReader]:
+def opened(
+    path: Path, what: str, *, own: bool, search: bool = False
+) -> Iterator[ResultsReader | Reader]:
     """Open a results file.
 
     Parameters
@@ -37,21 +40,29 @@ def opened(path: Path, what: str, *, search: bool = False) -> Iterator[ResultsRe
     what : str
         Said of the file where its contents make something impossible, for example "not a readable
         results file".
+    own : bool
+        This process has written it: the kernel reads it, without numpy.
     search : bool
-        Search it for what the HDF5 library would read for ever.
+        Search the file of another process for what the HDF5 library would read for ever.
 
     Raises
     ------
     ResultsError
     """
-    from hydrodae import _core
+    if own:
+        from hydrodae import _core
 
-    with guarded(path, _unreadable, what):
-        file = _core.ResultsReader(os.fsencode(path), search)
-        try:
-            yield file
-        finally:
-            file.close()
+        with damaged.guarded(path, _unreadable, what):
+            reader = _core.ResultsReader(os.fsencode(path))
+            try:
+                yield reader
+            finally:
+                reader.close()
+        return
+    from hydrodae.results.reader import Reader
+
+    with damaged.opened(path, _unreadable, what, search=search) as file:
+        yield Reader(file)
 
 
 def _unreadable(path: Path, fault: str) -> ResultsError:
@@ -80,7 +91,7 @@ class Contents:
         It is no results file, one of another version, or it has no list of times.
     """
 
-    def __init__(self, path: Path, file: ResultsReader) -> None:
+    def __init__(self, path: Path, file: ResultsReader | Reader) -> None:
         self.header = file.attributes("/")
         _check_format(path, self.header)
         self.statistics: dict[str, Any] = file.attributes("solver") if file.has("solver") else {}

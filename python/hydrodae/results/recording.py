@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     import xarray
 
     from hydrodae._core import ResultsReader
+    from hydrodae.results.reader import Reader
     from hydrodae.support.arrays import Array
 
 
@@ -58,17 +59,16 @@ class Recording(Mapping[str, "xarray.DataArray"]):
             raise ResultsError(
                 f"{self.path}: is a case, or a study, and no results file: run it first"
             )
+        self._own = sound
         self._identity = identity(self.path)
-        if owner is None or not sound:  # else nobody but this object writes there: when it is asked
-            self._contents = self._look(search=not sound)
-
-    def _look(self, *, search: bool) -> Contents:
-        with opened(self.path, "not a readable results file", search=search) as file:
-            return Contents(self.path, file)
+        if owner is None or not sound:  # else nobody else writes there: when it is asked for
+            self._contents  # noqa: B018
 
     @cached_property
     def _contents(self) -> Contents:
-        return self._look(search=False)
+        what = "not a readable results file"
+        with opened(self.path, what, own=self._own, search=True) as file:
+            return Contents(self.path, file)
 
     def __getitem__(self, name: str) -> xarray.DataArray:
         if name not in self._labelled:
@@ -159,7 +159,7 @@ class Recording(Mapping[str, "xarray.DataArray"]):
         """
         tables = {}
         for name in self._contents.impacts:
-            with opened(self.path, f"impacts on {name} are damaged") as file:
+            with opened(self.path, f"impacts on {name} are damaged", own=self._own) as file:
                 table = Channel(name, Samples(file, IMPACTS + name), {})
                 units = str(file.attributes(IMPACTS + name)["unit"]).split(", ")
             shape = table.samples.shape
@@ -183,12 +183,12 @@ class Recording(Mapping[str, "xarray.DataArray"]):
         """
         if self._accuracy is None:
             self._accuracy = {}
-            with opened(self.path, "accuracy is damaged") as file:
+            with opened(self.path, "accuracy is damaged", own=self._own) as file:
                 for name in self._contents.errors:
                     self._accuracy[name] = self._motion_error(name, file)
         return dict(self._accuracy)
 
-    def _motion_error(self, name: str, file: ResultsReader) -> MotionError:
+    def _motion_error(self, name: str, file: ResultsReader | Reader) -> MotionError:
         table = Samples(file, ACCURACY + name)
         if len(table.shape) != 2 or table.shape[1] != 3:
             raise ResultsError(f"{self.path}: accuracy of {name} is damaged")
@@ -239,7 +239,10 @@ class Recording(Mapping[str, "xarray.DataArray"]):
     @property
     def settled(self) -> float:
         """Time that statistics begin at [s]: the end of the ramp of the sea, 0 without waves."""
-        return float(self._contents.statistics.get("mean_power_from", 0.0))
+        start = self._contents.statistics.get("mean_power_from", 0.0)
+        if not isinstance(start, int | float):
+            raise ResultsError(f"{self.path}: damaged: mean_power_from is no number")
+        return float(start)
 
     def is_sample(self, start: float) -> bool:
         """Return whether the run from `start` [s] on is a sample of an irregular sea.
@@ -301,7 +304,7 @@ class Recording(Mapping[str, "xarray.DataArray"]):
             )
         count = len(self.times)
         damaged = f"channel {name} is damaged"
-        with opened(self.path, damaged) as file:
+        with opened(self.path, damaged, own=self._own) as file:
             samples = Samples(file, name, count)
             attributes = file.attributes(name)
         if "unit" in attributes:

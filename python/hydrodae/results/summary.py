@@ -168,7 +168,7 @@ def _loads(results: Recording) -> list[str]:
         ]
     else:
         names = [name for name in names if name.rpartition("/")[0] + "/velocity" not in results]
-    start = float(results.statistics.get("mean_power_from", 0.0))
+    start = results.settled
     first = next((k for k, t in enumerate(results.times) if t >= start), len(results.times) - 1)
     lines = []
     for name in names:
