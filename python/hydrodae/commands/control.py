@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 
+from hydrodae.commands.options import add_case
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
@@ -15,7 +17,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "It takes most power at one period. The impedance comes from the frequency tables.",
         epilog="example: hydrodae control design case.toml --joint slide --period 8",
     )
-    design.add_argument("case", metavar="CASE", help="case file (TOML)")
+    add_case(design, library=False)
     design.add_argument("--joint", metavar="NAME", required=True, help="along which it acts")
     design.add_argument(
         "--period",
@@ -30,13 +32,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=[],
         help="a take-off that stays beside the controller; without it all take-offs along joints "
         "are left out; may be repeated",
-    )
-    design.add_argument(
-        "--set",
-        metavar="KEY=VALUE",
-        action="append",
-        default=[],
-        help="replace a value of the case, such as force.pto.damping=0; may be repeated",
     )
     design.set_defaults(library=[])
 
