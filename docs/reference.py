@@ -74,7 +74,7 @@ Each table is a method of `hydrodae.Scene`, each type of a list with types too:
 ## A new key
 
 A key is one line in the `fields()` of its struct, a force one struct: case reader, schema,
-`hydrodae keys` and the methods of `hydrodae.Scene` follow, and the build writes the stub of
+`hydrodae keys` and the methods of `hydrodae.Scene` follow. The build writes the stub of
 `hydrodae.Scene` for editors. `python docs/reference.py` then writes these pages again; a test fails
 if they are out of date.
 """

@@ -86,8 +86,8 @@ def gradient(
     """Gradient of a mean power, or of a statistic of a channel, with respect to keys of a case.
 
     All are differences of fourth order with steps of a thousandth of the value of the key. In the
-    frequency domain the case is linearised anew at each step, about its static equilibrium, which
-    moves with the key; by statistical linearisation motion and linear equivalents are found anew.
+    frequency domain the case is linearised again at each step, about its static equilibrium, which
+    moves with the key; by statistical linearisation motion and linear equivalents are found again.
     In the time domain runs with the same fixed steps are differenced (internal numerical
     differentiation).
 
