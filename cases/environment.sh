@@ -63,7 +63,7 @@ source_hash() {
   (
     cd "$root" || exit
     find CMakeLists.txt pyproject.toml README.md LICENSE cpp python \
-      -type f ! -path '*/__pycache__/*' -print0 |
+      -type f ! -path '*/__pycache__/*' ! -name scene.pyi -print0 |
       LC_ALL=C sort -z | xargs -0 sha256sum | sha256sum | cut -d ' ' -f 1
   )
 }

@@ -1,6 +1,6 @@
-"""Write the reference pages of case files and the stub of `hydrodae.Scene`.
+"""Write the reference pages of case files.
 
-    python docs/reference.py            # writes docs/reference/*.md and the stub
+    python docs/reference.py            # writes docs/reference/*.md
     python docs/reference.py --check    # prints which are out of date; exit code 1 if any is
 
 All is made from the fields that the kernel declares beside its structs.
@@ -12,8 +12,6 @@ import argparse
 import sys
 from collections.abc import Iterable
 from pathlib import Path
-
-from scene_stub import scene_stub
 
 from hydrodae.case.tables import Key, Table, tables
 
@@ -76,9 +74,9 @@ Each table is a method of `hydrodae.Scene`, each type of a list with types too:
 ## A new key
 
 A key is one line in the `fields()` of its struct, a force one struct: case reader, schema,
-`hydrodae keys` and the methods of `hydrodae.Scene` follow. `python docs/reference.py` then writes
-these pages and the stub `python/hydrodae/case/scene.pyi` again; a test fails if they are
-out of date.
+`hydrodae keys` and the methods of `hydrodae.Scene` follow. The build writes the stub of
+`hydrodae.Scene` for editors. `python docs/reference.py` then writes these pages again; a test fails
+if they are out of date.
 """
 
 
@@ -86,7 +84,6 @@ def pages() -> dict[Path, str]:
     """Every generated file of the repository by its path in it."""
     made = {PAGES / f"{table.name}.md": page(table) for table in tables()}
     made[PAGES / "README.md"] = index(tables())
-    made[Path("python", "hydrodae", "case", "scene.pyi")] = scene_stub(tables())
     return made
 
 

@@ -19,7 +19,7 @@ from pathlib import Path
 
 from tests.python.doc_blocks import pages
 
-from hydrodae.commands import cli
+from hydrodae.commands.parser import ALL, parser_of
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLDERS = ("cpp", "python", "tests", "cases", "docs")
@@ -117,7 +117,7 @@ def parsers(parser: argparse.ArgumentParser, name: str) -> Iterator[tuple[str, s
 
 def of_help() -> Iterator[str]:
     """Faults of the texts that `--help` prints."""
-    for name, text in parsers(cli._parser(cli.ALL), "hydrodae"):
+    for name, text in parsers(parser_of(ALL), "hydrodae"):
         yield from (f"{name}: {fault}" for fault in faults(text))
 
 

@@ -12,6 +12,7 @@ cd "$root"
 note "building and running the C++ tests"
 build_preset tests
 ctest --preset tests -j "$(nproc)"
+.venv/bin/python python/bindings/scene_stub.py python/hydrodae/case/scene.pyi # for mypy
 # mypy has one process, and so have the checks up to the program that uses the library.
 .venv/bin/mypy >build/mypy.log 2>&1 &
 types=$!

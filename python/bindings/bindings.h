@@ -12,6 +12,7 @@ void bind_io(pybind11::module_& module);
 void bind_mooring(pybind11::module_& module);
 void bind_simulation(pybind11::module_& module);
 void bind_stepping(pybind11::module_& module);
+void bind_recording(pybind11::module_& module);
 void bind_analysis(pybind11::module_& module);
 
 } // namespace hydrodae::bindings

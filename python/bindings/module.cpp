@@ -12,5 +12,6 @@ PYBIND11_MODULE(_core, module) {
   bind_mooring(module);
   bind_simulation(module);
   bind_stepping(module);
+  bind_recording(module);
   bind_analysis(module);
 }

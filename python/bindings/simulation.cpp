@@ -57,6 +57,10 @@ private:
 
 py::dict as_dict(const RunStatistics& s) {
   using namespace py::literals;
+  py::dict until;
+  if (!s.accuracy.time.empty())
+    for (const accuracy::MoverError& m : s.accuracy.movers)
+      until[py::str(m.name)] = m.reproducible_until;
   return py::dict(
       "status"_a = s.status, "steps"_a = s.steps, "residual_calls"_a = s.residual_calls,
       "jacobian_calls"_a = s.jacobian_calls, "newton_iterations"_a = s.newton_iterations,
@@ -64,7 +68,7 @@ py::dict as_dict(const RunStatistics& s) {
       "convergence_failures"_a = s.convergence_failures, "events"_a = s.events,
       "end_time"_a = s.end_time, "setup_time"_a = s.setup_time, "solver_time"_a = s.solver_time,
       "wall_time"_a = s.wall_time, "at_rest"_a = s.at_rest, "unknowns"_a = s.unknowns,
-      "nonzeros"_a = s.nonzeros, "notes"_a = s.notes);
+      "nonzeros"_a = s.nonzeros, "notes"_a = s.notes, "reproducible_until"_a = until);
 }
 
 py::dict run(const model::Scene& scene, const std::string& output, const py::object& callback,

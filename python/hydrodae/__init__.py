@@ -24,6 +24,7 @@ from hydrodae.errors import (
 )
 
 if TYPE_CHECKING:
+    from hydrodae import fmu as fmu
     from hydrodae import hdb, mooring
     from hydrodae import linear as frequency  # noqa: F401
     from hydrodae import records as records

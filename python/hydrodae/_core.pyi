@@ -197,9 +197,25 @@ def simulate(
     second run, by which the error is estimated, "": the same; `checkpoint`: wall time between
     checkpoints [s], negative: none; `resume`: goes on from one;
     `strict`: an estimate of the error is needed.
-    Returns the status ("completed" or "interrupted") and the statistics of the solver. Raises
-    SolverError when the integration fails; the file then holds what was computed.
+    Returns the status ("completed" or "interrupted"), the statistics of the solver, notes, and
+    `reproducible_until` [s] of each body and line whose error is estimated. Raises SolverError when
+    the integration fails; the file then holds what was computed.
     """
+
+class ResultsReader:
+    """A results file of this process, open for reading; RuntimeError where it cannot be read."""
+
+    def __init__(self, path: bytes | str) -> None: ...
+    def close(self) -> None: ...
+    def datasets(self) -> list[bytes]:
+        """Paths of all datasets."""
+    def has(self, member: str) -> bool:
+        """Whether there is such a member of the root."""
+    def attributes(self, object: str) -> dict[str, Any]:
+        """Attributes of a group or dataset: texts, numbers, lists of numbers."""
+    def shape(self, dataset: str) -> tuple[int, ...]: ...
+    def read(self, dataset: str, rows: int) -> tuple[bytearray, tuple[int, ...]]:
+        """The first rows of a dataset as float64 numbers, and their shape."""
 
 class State:
     """All that a run is at an accepted instant: a value that can be copied, compared, pickled."""

@@ -14,9 +14,8 @@ from pathlib import Path
 from typing import Any
 
 from tests.attack import suite
-
-from hydrodae.study.stability import Cell, run_cell, show
-from hydrodae.study.stability.grid import PASS, REFUSED, STOPPED, WRONG
+from tests.stability import Cell, run_cell, show
+from tests.stability.grid import PASS, REFUSED, STOPPED, WRONG
 
 RANK = {WRONG: 0, STOPPED: 1, REFUSED: 2, PASS: 3}
 

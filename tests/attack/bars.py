@@ -13,8 +13,8 @@ import numpy as np
 from tests.attack import truth
 from tests.attack.family import unnamed
 from tests.attack.parts import DOWN_Y, GRAVITY, Table, body, both, joint, position
+from tests.stability import Scene
 
-from hydrodae.study.stability import Scene
 from hydrodae.support.arrays import Array
 
 SOURCE = "DOP853, angles of the bars"

@@ -9,8 +9,7 @@ from tests.attack import truth
 from tests.attack.drives import Motion, functions, motion
 from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.parts import GRAVITY, X, Z, body, both, case, driven, joint, position, stop
-
-from hydrodae.study.stability import Scene
+from tests.stability import Scene
 
 KIND = "impacts"
 

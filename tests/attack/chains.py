@@ -10,8 +10,8 @@ from tests.attack import truth
 from tests.attack.bars import SOURCE, Chain
 from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.parts import GRAVITY, case, stop
+from tests.stability import Scene
 
-from hydrodae.study.stability import Scene
 from hydrodae.support.arrays import Array
 
 

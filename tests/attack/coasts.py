@@ -9,8 +9,7 @@ from scipy.interpolate import CubicSpline
 from tests.attack import truth
 from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.parts import GRAVITY, X, body, both, case, joint, position, stop
-
-from hydrodae.study.stability import Scene
+from tests.stability import Scene
 
 KIND = "loads after rest"
 

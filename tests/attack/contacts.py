@@ -11,8 +11,7 @@ from tests.attack.bounces import falling_ball
 from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.parts import DOWN_Y, GRAVITY, body, case, joint, position
 from tests.attack.slide import LARGE, SMALL, UNIT, Scale, block, drawn, placed, spring
-
-from hydrodae.study.stability import Scene
+from tests.stability import Scene
 
 KIND = "contacts and friction"
 Three = tuple[float, float, float]

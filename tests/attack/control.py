@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 from tests.attack.family import chosen, family, log_uniform
 from tests.attack.slide import LARGE, SMALL, UNIT, Scale, block, drawn, spring
-
-from hydrodae.study.stability import Scene
+from tests.stability import Scene
 
 KIND = "controllers"
 Three = tuple[float, float, float]

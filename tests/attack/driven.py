@@ -9,8 +9,7 @@ from tests.attack import truth
 from tests.attack.drives import HOW, KIND, functions, knots, motion, start_rate
 from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.parts import DOWN_Y, X, body, case, channel, driven, joint, position
-
-from hydrodae.study.stability import Scene
+from tests.stability import Scene
 
 
 def _draw_crank(g: np.random.Generator) -> dict[str, Any]:

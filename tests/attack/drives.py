@@ -22,8 +22,7 @@ from tests.attack.parts import (
     position,
     spring,
 )
-
-from hydrodae.study.stability import Scene
+from tests.stability import Scene
 
 KIND = "drives"
 Motion = Callable[[Any], tuple[Any, Any, Any]]  #: value, rate, rate of the rate

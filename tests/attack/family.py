@@ -10,8 +10,7 @@ from typing import Any
 
 import numpy as np
 from tests.attack.parts import beside
-
-from hydrodae.study.stability import Scene
+from tests.stability import Scene
 
 Draw = Callable[[np.random.Generator], dict[str, Any]]
 Make = Callable[..., Scene]

@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 from tests.attack.family import chosen, family, log_uniform
-
-from hydrodae.study.stability import Scene, all_scenes
+from tests.stability import Scene, all_scenes
 
 KIND = "misaligned hinges"
 #: The message names a hinge, the misfit, and that it is one.

@@ -8,8 +8,7 @@ import numpy as np
 from tests.attack import sea, truth
 from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.parts import DOWN_Y, GRAVITY, X, Z, body, case, joint, position, stop
-
-from hydrodae.study.stability import Scene
+from tests.stability import Scene
 
 KIND = "impacts"
 

@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.parts import GRAVITY, Table, body, case, joint, position
-
-from hydrodae.study.stability import Scene, truths
+from tests.stability import Scene, truths
 
 KIND = "little inertia"
 SOURCE = "Jacobi elliptic functions"

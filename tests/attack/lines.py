@@ -9,9 +9,9 @@ from scipy.optimize import root
 from tests.attack import truth
 from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.parts import GRAVITY, body, case, driven, position
+from tests.stability import Scene
 
 from hydrodae.results import Results
-from hydrodae.study.stability import Scene
 from hydrodae.support.arrays import Array
 
 KIND = "moorings"

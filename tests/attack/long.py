@@ -8,8 +8,7 @@ import numpy as np
 from tests.attack import truth
 from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.parts import GRAVITY, body, case, joint, position
-
-from hydrodae.study.stability import Scene, truths
+from tests.stability import Scene, truths
 
 KIND = "long runs"
 

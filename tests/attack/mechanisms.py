@@ -9,8 +9,7 @@ import numpy as np
 from tests.attack import scales
 from tests.attack.family import chosen, family, log_uniform
 from tests.attack.parts import beside, both
-
-from hydrodae.study.stability import Scene, all_scenes
+from tests.stability import Scene, all_scenes
 
 KIND = "unconnected mechanisms"
 NEIGHBOURS = ("ship", "barge", "rotor", "swing")

@@ -10,8 +10,7 @@ import numpy as np
 from tests.attack import sea, truth
 from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.parts import case, position
-
-from hydrodae.study.stability import Scene, past, truths, water
+from tests.stability import Scene, past, truths, water
 
 KIND = "bad memories"
 FEEDS = "the radiated waves would feed the motion"

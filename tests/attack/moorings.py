@@ -10,8 +10,7 @@ from scipy.optimize import root
 from tests.attack import truth
 from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.parts import GRAVITY, body, both, case, position
-
-from hydrodae.study.stability import Scene
+from tests.stability import Scene
 
 KIND = "moorings"
 

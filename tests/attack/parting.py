@@ -8,8 +8,8 @@ import numpy as np
 from tests.attack import truth
 from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.parts import GRAVITY, Table, body, both, case, position
+from tests.stability import Scene
 
-from hydrodae.study.stability import Scene
 from hydrodae.support.arrays import Array
 
 KIND = "moorings"

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from tests.stability import Scene
 
 from hydrodae.results import Results
-from hydrodae.study.stability import Scene
 from hydrodae.support.arrays import Array
 
 Table = dict[str, Any]

@@ -8,9 +8,9 @@ import numpy as np
 from tests.attack import truth
 from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.parts import GRAVITY, ORIGIN, body, case, position, spring
+from tests.stability import Scene
 
 from hydrodae.results import Results
-from hydrodae.study.stability import Scene
 
 KIND = "special poses"
 

@@ -10,8 +10,7 @@ from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.long import turned
 from tests.attack.parts import Z, body, case, joint, position
 from tests.attack.slide import LARGE, SMALL, UNIT, Scale, block, drawn, placed, spring
-
-from hydrodae.study.stability import Scene
+from tests.stability import Scene
 
 KIND = "power take-offs"
 Three = tuple[float, float, float]

@@ -10,8 +10,7 @@ from scipy.interpolate import CubicSpline
 from tests.attack import truth
 from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.parts import GRAVITY, body, both, case, driven, joint, position, spring
-
-from hydrodae.study.stability import Scene
+from tests.stability import Scene
 
 KIND = "loads after rest"
 PULSE = Polynomial([0.0, 4.0, -4.0]) ** 4  #: (4 s (1 - s))^4: three derivatives vanish at 0 and 1

@@ -8,8 +8,7 @@ import numpy as np
 from tests.attack import truth
 from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.parts import GRAVITY, Y, body, both, case, joint, position, spring
-
-from hydrodae.study.stability import Scene, truths
+from tests.stability import Scene, truths
 
 KIND = "small and large"
 

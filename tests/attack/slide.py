@@ -11,8 +11,7 @@ from tests.attack import truth
 from tests.attack.family import log_uniform, unnamed
 from tests.attack.parts import X, case, joint, position
 from tests.attack.parts import body as body_entry
-
-from hydrodae.study.stability import Scene
+from tests.stability import Scene
 
 
 @dataclass(frozen=True)

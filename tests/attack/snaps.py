@@ -12,8 +12,7 @@ from tests.attack import sea, truth
 from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.parts import ORIGIN, X, Z, body, both, case, joint, position
 from tests.attack.slide import LARGE, SMALL, UNIT, Scale, drawn
-
-from hydrodae.study.stability import Scene
+from tests.stability import Scene
 
 KIND = "errors that grow"
 Three = tuple[float, float, float]

@@ -10,8 +10,7 @@ from tests.attack import driven as driven_mechanisms
 from tests.attack import truth
 from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.parts import DOWN_Y, GRAVITY, X, Z, body, case, driven, joint, position, stop
-
-from hydrodae.study.stability import Scene
+from tests.stability import Scene
 
 KIND = "start velocities"
 TOLD = r"(?i)veloc|rate|m/s|rad/s"

@@ -37,9 +37,8 @@ from tests.attack import (  # noqa: F401  the modules register their families
     waves,
 )
 from tests.attack.family import FAMILIES, log_uniform
-
-from hydrodae.study.stability import Cell, Method, Scene, show
-from hydrodae.study.stability.grid import PASS, WRONG
+from tests.stability import Cell, Method, Scene, show
+from tests.stability.grid import PASS, WRONG
 
 #: Relative error that the truths themselves may have.
 FLOOR = 1e-9

@@ -13,10 +13,10 @@ from tests.attack import __main__ as command
 from tests.attack import coasts, sea, suite, truth
 from tests.attack.family import FAMILIES
 from tests.attack.parts import GRAVITY
+from tests.stability import Cell, Scene, run_cell
+from tests.stability.grid import PASS, WRONG
 
 import hydrodae
-from hydrodae.study.stability import Cell, Scene, run_cell
-from hydrodae.study.stability.grid import PASS, WRONG
 
 SCENES = suite.all_scenes()
 #: Quick ones of every kind.

@@ -8,8 +8,7 @@ import numpy as np
 from tests.attack import truth
 from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.parts import GRAVITY, X, Y, Z, body, case, channel, joint
-
-from hydrodae.study.stability import Scene
+from tests.stability import Scene
 
 KIND = "turns"
 TURN = 2.0 * np.pi

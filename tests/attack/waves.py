@@ -8,8 +8,7 @@ import numpy as np
 from tests.attack import sea, truth
 from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.parts import case, position
-
-from hydrodae.study.stability import Scene
+from tests.stability import Scene
 
 HEAVE = position("sphere", 2, origin=[0.0, 0.0, -sea.DRAFT])
 SOURCE = "linear states of the same tables (DOP853)"

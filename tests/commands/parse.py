@@ -57,14 +57,14 @@ def problem(command: Command, repository: Path) -> str:
 
 def of_hydrodae(words: list[str], *, loosely: bool) -> str:
     """Problem of a call of hydrodae; `loosely`: only its command and its options count."""
-    from hydrodae.commands import cli
+    from hydrodae.commands.parser import parser_of
 
     if loosely and words[:1] and words[0].isupper():  # `hydrodae COMMAND --help`
         return ""
     error = io.StringIO()
     try:
         with contextlib.redirect_stderr(error), contextlib.redirect_stdout(io.StringIO()):
-            parser = cli._parser(words[:1])
+            parser = parser_of(words[0] if words else "")
             parser.parse_args(words)
     except SystemExit as end:
         told = error.getvalue().strip().splitlines()

@@ -40,7 +40,7 @@ class Corpus:
 
 def collect(databases: Path) -> Corpus:
     """All small cases of the repository; `databases` takes the files that they name."""
-    from hydrodae.study.stability import all_scenes
+    from tests.stability import all_scenes
 
     paths = [
         *sorted((ROOT / "cases").rglob("*.toml")),

@@ -14,12 +14,13 @@ import hydrodae
 from hydrodae.commands import cli
 from hydrodae.commands.examples import EXAMPLES
 from hydrodae.commands.machine import plain
+from hydrodae.commands.parser import ALL, parser_of
 from hydrodae.starters import create
 from hydrodae.study.grouped import grouped
 
 
 def commands() -> list[str]:
-    parser = cli._parser(cli.ALL)
+    parser = parser_of(ALL)
     (actions,) = [a for a in parser._actions if a.choices and a.dest != "shell"]
     assert actions.choices is not None
     return list(actions.choices)
@@ -32,7 +33,7 @@ def test_every_command_has_examples_and_they_can_be_parsed() -> None:
             program, *arguments = shlex.split(line)
             assert program == "hydrodae"
             assert arguments[0] == name
-            cli._parser([name]).parse_args(arguments)
+            parser_of(name).parse_args(arguments)
 
 
 def test_help_shows_examples_and_exit_codes(capsys: pytest.CaptureFixture[str]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -73,8 +74,8 @@ def test_frequency_domain_agrees_with_finite_differences(buoy: Path, of: str) ->
 
         by = fourth_order(value, x, 2e-3)
         assert slope == pytest.approx(by, rel=1e-6), key
-    assert found.affine[:3] == (True, True, True)
-    assert not found.affine[3]  # frequencies of the components follow the period
+    assert found.affine[:2] == (False, False)
+    assert found.affine[2] == (of != POWER)  # motions are proportional to the height of the waves
 
 
 def test_frequency_domain_of_a_mooring_moves_the_equilibrium(moored: Path) -> None:
@@ -172,6 +173,19 @@ def test_rows_of_a_rotary_take_off_are_those_of_the_kernel() -> None:
     assert np.abs(added).max() > 1.0
 
 
+@pytest.mark.parametrize("rung", ["frequency", "spectral"])
+def test_motion_grows_with_the_height_of_the_waves_and_power_with_its_square(
+    buoy: Path, rung: str
+) -> None:
+    """Of a linear device, whatever the model of its motion."""
+    height = "wave.sea.significant_height"
+    motion = hydrodae.gradient(buoy, "bodies/buoy/heave", [height], rung=rung)
+    power = hydrodae.gradient(buoy, POWER, [height], rung=rung)
+    assert motion.gradient[0] == pytest.approx(motion.value / motion.at[0], rel=1e-10)
+    assert motion.affine == (True,)
+    assert power.gradient[0] == pytest.approx(2.0 * power.value / power.at[0], rel=1e-10)
+
+
 def test_several_keys_are_one_parameter(buoy: Path) -> None:
     text = Path(buoy).read_text().replace("damping = 150.0e3", "damping = 75.0e3")
     second = '[[force]]\nname = "pto2"\ntype = "pto_linear"\njoint = "slide"\ndamping = 75e3\n'
@@ -195,16 +209,12 @@ def test_one_sided_differences_at_the_edge_of_a_range(buoy: Path) -> None:
 
 
 def test_differences_are_exact_where_affine_and_of_fourth_order_elsewhere() -> None:
-    def at(x: float) -> dict[str, Any]:
-        return {"a": np.array([3.0 * x, 1.0]), "b": np.array(np.sin(x))}
-
-    d, affine, calls = derivative(at, 2.0, at(2.0))
-    assert not affine
-    assert calls == 4
-    np.testing.assert_allclose(d["a"], [3.0, 0.0], atol=1e-11)
-    assert d["b"] == pytest.approx(np.cos(2.0), rel=1e-10)
-    d, affine, calls = derivative(lambda x: {"a": at(x)["a"]}, 2.0, {"a": at(2.0)["a"]})
+    slope, affine, calls = derivative(math.sin, 2.0, math.sin(2.0))
+    assert (affine, calls) == (False, 4)
+    assert slope == pytest.approx(math.cos(2.0), rel=1e-10)
+    slope, affine, calls = derivative(lambda x: 3.0 * x + 1.0, 2.0, 7.0)
     assert (affine, calls) == (True, 2)
+    assert slope == pytest.approx(3.0, rel=1e-11)
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,19 @@ LAYERS = [
     {"ensemble"},
 ]
 # Rooms that hold the equations of motion and the methods that integrate them.
-HEART = {"core", "math", "sea", "hull", "hydro", "joint", "element", "control", "water", "line", "air"}
+HEART = {
+    "core",
+    "math",
+    "sea",
+    "hull",
+    "hydro",
+    "joint",
+    "element",
+    "control",
+    "water",
+    "line",
+    "air",
+}
 HEART |= {"system", "linalg", "integrate", "events"}
 LEVEL = {name: level for level, names in enumerate(LAYERS) for name in names}
 ONLY = {

@@ -20,10 +20,10 @@ from tests.scenes import cart
 import hydrodae
 from hydrodae.starters import create
 from hydrodae.study.sweep import text
+from hydrodae.study.sweep.batches import run_case
 from hydrodae.study.sweep.fatigue import damage_equivalent_load
 from hydrodae.study.sweep.measures import Measure
 from hydrodae.study.sweep.plan import read_study
-from hydrodae.study.sweep.batches import run_case
 
 CASE = cart(
     "damping = 1.0",

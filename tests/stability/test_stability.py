@@ -11,10 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.verification.truths import make as truths
-
-from hydrodae.commands import cli
-from hydrodae.study.stability import (
+from tests.stability import (
     Cell,
     Scene,
     all_methods,
@@ -24,9 +21,11 @@ from hydrodae.study.stability import (
     show,
     stability_map,
 )
-from hydrodae.study.stability.grid import PASS, REFUSED, WRONG
-from hydrodae.study.stability.methods import Method
-from hydrodae.study.stability.truths import BRICARD_STEP, LIGHT_JOINT_STEP
+from tests.stability.__main__ import main
+from tests.stability.grid import PASS, REFUSED, WRONG
+from tests.stability.methods import Method
+from tests.stability.truths import BRICARD_STEP, LIGHT_JOINT_STEP
+from tests.verification.truths import make as truths
 
 SCENES, METHODS = all_scenes(), all_methods()
 SHORT = (
@@ -201,8 +200,8 @@ def test_the_command_writes_json_and_a_picture(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     data, picture = tmp_path / "map.json", tmp_path / "map.png"
-    arguments = ["stability-map", "--scenes", "pendulum", "--methods", "ida:1e-6", "ida:index_3"]
-    assert cli.main([*arguments, "--json", str(data), "--picture", str(picture)]) == 0
+    arguments = ["--scenes", "pendulum", "--methods", "ida:1e-6", "ida:index_3"]
+    assert main([*arguments, "--json", str(data), "--picture", str(picture)]) == 0
     document: dict[str, Any] = json.loads(data.read_text(encoding="utf-8"))
     keys = {"scene", "method", "outcome", "reason", "error", "time_s"}
     assert [c["outcome"] for c in document["cells"]] == ["pass", "refused"]
@@ -212,7 +211,7 @@ def test_the_command_writes_json_and_a_picture(
 
 
 def test_an_unknown_scene_is_named_with_the_nearest(capsys: pytest.CaptureFixture[str]) -> None:
-    assert cli.main(["stability-map", "--scenes", "pendulm"]) == 2
+    assert main(["--scenes", "pendulm"]) == 2
     assert "did you mean pendulum?" in capsys.readouterr().err
 
 

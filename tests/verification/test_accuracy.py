@@ -12,12 +12,12 @@ from tests.attack import suite
 from tests.attack.family import FAMILIES
 from tests.attack.parts import X, Y, body, driven, joint, stop
 from tests.attack.parts import case as made
+from tests.stability import Method
+from tests.stability.grid import PASS, run_cell
 from tests.verification.blocks import case_of
 
 import hydrodae
 from hydrodae.commands.cli import main
-from hydrodae.study.stability import Method
-from hydrodae.study.stability.grid import PASS, run_cell
 
 SCENES = suite.all_scenes()
 

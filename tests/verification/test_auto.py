@@ -12,11 +12,11 @@ import pytest
 from tests.attack import suite
 from tests.errors import wrong
 from tests.scenes import cart
+from tests.stability import Method, Scene, grid
+from tests.stability.grid import PASS, run_cell
 
 import hydrodae
 from hydrodae import Simulation
-from hydrodae.study.stability import Method, Scene, grid
-from hydrodae.study.stability.grid import PASS, run_cell
 
 ROOT = Path(__file__).resolve().parents[2]
 MAP, ATTACK = grid.all_scenes(), suite.all_scenes()

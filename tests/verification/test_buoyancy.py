@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 from tests.attack.buoyancy import submerged_pendulum
+from tests.stability import Scene
 
 from hydrodae import run
-from hydrodae.study.stability import Scene
 
 
 def off(scene: Scene, folder: Path, **solver: object) -> float:

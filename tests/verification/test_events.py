@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from tests.attack.parts import DOWN_Y, Table, X, Y, Z, body, case, joint, stop
 from tests.errors import wrong
+from tests.stability import switching
 from tests.verification.blocks import run_tables
 
 import hydrodae
 from hydrodae.errors import SolverError
-from hydrodae.study.stability import switching
 
 METHODS: dict[str, dict[str, Any]] = {
     "ida": {},

@@ -14,9 +14,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from tests.scenes import run_for, slide, table
+from tests.stability import water
 
 import hydrodae
-from hydrodae.study.stability import water
 from hydrodae.support.arrays import Array
 
 MASS, STIFFNESS, DAMPING, LATE, DELAY, END = 1000.0, 4000.0, 400.0, 1500.0, 5.0, 40.0

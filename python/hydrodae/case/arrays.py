@@ -6,7 +6,6 @@ the results (`bodies/u3_flap`) and in the database (`hydro = "u3_flap"`).
 
 from __future__ import annotations
 
-import difflib
 import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -21,6 +20,7 @@ from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.coordinates import body_name
 from hydrodae.support.arrays import Array
+from hydrodae.support.nearest import did_you_mean
 
 #: Tables of which every unit has its own entries; the others are of the whole array.
 OF_UNITS = (
@@ -143,8 +143,7 @@ class Unit:
         """Return a channel of the unit; KeyError, with those that there are, for any other."""
         names = dict(zip(self.channels(), _of_unit(self.results, self.name), strict=True))
         if channel not in names:
-            near = difflib.get_close_matches(channel, names, 1)
-            hint = f"; did you mean {near[0]!r}?" if near else ""
+            hint = did_you_mean(channel, names)
             raise KeyError(f"unit {self.name!r} has no channel {channel!r}{hint}")
         return self.results[names[channel]]
 

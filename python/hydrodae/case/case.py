@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 import os
 import re
-import tomllib
+import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
-import numpy as np
-
-from hydrodae.case.callbacks.drives import Drive, kernel_drives
-from hydrodae.case.callbacks.laws import Force, kernel_forces
 from hydrodae.errors import CaseError
-from hydrodae.support import outputs
 
 if TYPE_CHECKING:
     from hydrodae._core import Scene
+    from hydrodae.case.callbacks.drives import Drive
+    from hydrodae.case.callbacks.laws import Force
 
 _BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
 _BARE_WORD = re.compile(r"[A-Za-z_./][A-Za-z0-9_./+-]*")  # as the kernel has it
@@ -211,6 +207,8 @@ class Case:
             The joints cannot be closed near the start.
         """
         from hydrodae import _core
+        from hydrodae.case.callbacks.drives import kernel_drives
+        from hydrodae.case.callbacks.laws import kernel_forces
 
         return _core.examine(
             self._scene, kernel_drives(self._scene, drives), kernel_forces(self._scene, forces)
@@ -252,6 +250,8 @@ class Case:
 
 def _refuse_other_kind(path: Path) -> None:
     """Raise CaseError for results, databases and other files that are no text."""
+    from hydrodae.support import outputs
+
     with path.open("rb") as file:
         head = file.read(8)
     if head.startswith((b"\x89HDF", b"CDF", b"\x89PNG", b"%PDF", b"PK")):
@@ -308,7 +308,8 @@ def to_toml(value: Any, key: str = "value") -> str:
     CaseError
         The value has no counterpart in a case file.
     """
-    if isinstance(value, np.ndarray | np.generic):
+    numpy = sys.modules.get("numpy")  # where nobody has loaded it, no value is of it
+    if numpy is not None and isinstance(value, numpy.ndarray | numpy.generic):
         value = value.tolist()
     match value:
         case bool():
@@ -348,6 +349,8 @@ def parse_assignment(text: str) -> tuple[str, Any]:
     >>> parse_assignment("hydro.axes=mean")
     ('hydro.axes', 'mean')
     """
+    import tomllib
+
     key, equals, value = (part.strip() for part in text.partition("="))
     if not (key and equals and value):
         raise CaseError(f"--set {text}: expected key=value, for example solver.rtol=1e-8")
@@ -392,6 +395,8 @@ def _near_file(path: Path) -> str:
     """Hint at a file of nearly the same name in the same folder."""
     if not path.parent.is_dir():
         return f" (there is no folder {path.parent})"
+    import difflib
+
     names = [other.name for other in path.parent.glob("*.toml")]
     near = difflib.get_close_matches(path.name, names, n=1)
     return f"; did you mean {path.with_name(near[0])}?" if near else ""

@@ -1,7 +1,7 @@
 """Scenes built in Python instead of in a case file.
 
-What type checkers and editors know of the class stands in ``scene.pyi``, which
-``python docs/reference.py`` makes from the same tables.
+What type checkers and editors know of the class stands in ``scene.pyi``, which the build makes of
+the same tables (``python/bindings/scene_stub.py``).
 """
 
 from __future__ import annotations

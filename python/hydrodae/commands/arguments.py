@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import argparse
+import math
 from collections.abc import Mapping
-from typing import Any
-
-import numpy as np
+from typing import TYPE_CHECKING, Any
 
 from hydrodae.case import Case
 from hydrodae.case.case import parse_assignment
 from hydrodae.errors import CaseError, DatabaseError
-from hydrodae.support.arrays import Array
+
+if TYPE_CHECKING:
+    from hydrodae.support.arrays import Array
 
 
 def given_case(arguments: argparse.Namespace, values: Mapping[str, Any] | None = None) -> Case:
@@ -29,7 +30,7 @@ def parse_numbers(what: str, text: str, count: int) -> list[float]:
         values = [float(v) for v in text.split(",")]
     except ValueError:
         values = []
-    if len(values) != count or not np.all(np.isfinite(values)):
+    if len(values) != count or not all(map(math.isfinite, values)):
         raise CaseError(f"{what} {text!r}: expected {count} numbers separated by commas")
     return values
 
@@ -40,7 +41,7 @@ def parse_positive(option: str, text: str) -> list[float]:
         values = [float(v) for v in text.split(",")]
     except ValueError:
         values = [0.0]
-    if not all(0.0 < value < np.inf for value in values):
+    if not all(0.0 < value < math.inf for value in values):
         raise CaseError(f"{option} {text!r}: expected numbers > 0 with commas")
     return values
 
@@ -50,7 +51,7 @@ def heading_deg(text: str) -> float:
     try:
         value = float(text)
     except ValueError:
-        value = np.nan
+        value = math.nan
     if not abs(value) <= 360.0:
         raise argparse.ArgumentTypeError(f"{text!r}: expected a direction from -360 to 360 deg")
     return value
@@ -64,6 +65,8 @@ def parse_headings(option: str, text: str) -> Array:
     CaseError
         One is no number, or outside.
     """
+    import numpy as np
+
     degrees = np.array(parse_numbers(option, text, text.count(",") + 1))
     if np.any(np.abs(degrees) > 360.0):
         raise CaseError(f"{option} {text!r}: expected directions between -360 and 360 deg")

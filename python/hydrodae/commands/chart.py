@@ -1,4 +1,4 @@
-"""The commands `hydrodae chart` and `hydrodae recommend`."""
+"""The command `hydrodae chart`."""
 
 from __future__ import annotations
 
@@ -12,7 +12,20 @@ from hydrodae.errors import CaseError
 DONE = 0
 
 
-def run_chart(arguments: argparse.Namespace) -> int:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    add_common(parser)
+    parser.add_argument(
+        "--steps",
+        metavar="A,B,...",
+        help="steps [s] of the fixed-step methods (default: from the mean step of ida)",
+    )
+    parser.add_argument(
+        "-o", "--output", metavar="PREFIX", help="default: the case's name with _chart, here"
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
     """Make a chart, print its table, write picture and JSON."""
     from rich.console import Console
 
@@ -23,7 +36,7 @@ def run_chart(arguments: argparse.Namespace) -> int:
 
     case = given_case(arguments)
     prefix = Path(arguments.output or Path(arguments.case).stem + "_chart")
-    options = _options(arguments)
+    options = common_options(arguments)
     if arguments.steps:
         options["steps"] = _numbers(arguments.steps, "--steps")
     with ProgressLine(f"chart of {case.title}, simulated") as progress:
@@ -40,68 +53,8 @@ def run_chart(arguments: argparse.Namespace) -> int:
     return DONE
 
 
-def run_recommend(arguments: argparse.Namespace) -> int:
-    """Print the cheapest setting that meets an error, as lines of a case."""
-    from hydrodae.commands.arguments import given_case
-    from hydrodae.study.chart import Run, recommend
-    from hydrodae.support.progress import ProgressLine
-
-    def told(run: Run) -> str:
-        return (
-            f"{run.method} at {run.knob} {run.setting:g}: error {run.error:.1e}, "
-            f"solver time {1e3 * (run.time or 0.0):.1f} ms"
-        )
-
-    case = given_case(arguments)
-    with ProgressLine(f"runs of {case.title}, simulated") as progress:
-        found = recommend(case, arguments.error, progress=progress, **_options(arguments))
-    print(f"# {told(found.run)}\n{found.toml()}")
-    print(f"\n# runner-up: {told(found.runner_up) if found.runner_up else 'none'}")
-    for name in found.chart.methods():
-        runs = [run for run in found.chart.runs if run.method == name]
-        if not any(run.measured and (run.error or 0.0) <= arguments.error for run in runs):
-            bad = sorted({run.outcome for run in runs} - {"ok"})
-            print(f"# {name} does not meet it{': ' + ', '.join(bad) if bad else ''}")
-    return DONE
-
-
-def add_arguments(commands: Any) -> None:
-    """Add both commands to the subparsers of `hydrodae`."""
-    chart = commands.add_parser(
-        "chart",
-        help="chart speed against accuracy of all methods on a case",
-        description="Run a case by every method over a ladder of tolerances or steps; print a "
-        "table, write PREFIX.png and PREFIX.json.",
-    )
-    _common(chart)
-    chart.add_argument(
-        "--steps",
-        metavar="A,B,...",
-        help="steps [s] of the fixed-step methods (default: from the mean step of ida)",
-    )
-    chart.add_argument(
-        "-o", "--output", metavar="PREFIX", help="default: the case's name with _chart, here"
-    )
-    chart.set_defaults(call=run_chart)
-
-    advise = commands.add_parser(
-        "recommend",
-        help="find the cheapest method and tolerance that meet an error",
-        description="Run a case by four methods at four tolerances or steps. Print the cheapest "
-        "setting whose error is at most E, as lines to paste into the case.",
-    )
-    advise.add_argument(
-        "--error",
-        metavar="E",
-        type=float,
-        required=True,
-        help="largest difference relative to the largest excursion, such as 1e-4",
-    )
-    _common(advise)
-    advise.set_defaults(call=run_recommend, steps=None)
-
-
-def _common(parser: argparse.ArgumentParser) -> None:
+def add_common(parser: argparse.ArgumentParser) -> None:
+    """Add what the command `recommend` has as well."""
     add_case(parser)
     parser.add_argument(
         "--methods", metavar="A,B,...", help="names, or name:order such as radau:13"
@@ -126,7 +79,7 @@ def _common(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _options(arguments: argparse.Namespace) -> dict[str, Any]:
+def common_options(arguments: argparse.Namespace) -> dict[str, Any]:
     """The arguments that were given, as those of `hydrodae.chart`."""
     options: dict[str, Any] = {
         "reference": arguments.reference,

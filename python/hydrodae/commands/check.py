@@ -8,20 +8,13 @@ from hydrodae.commands.machine import print_json
 from hydrodae.commands.options import add_case, add_json
 
 
-def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    """Add the command to those of `hydrodae`."""
-    parser = commands.add_parser(
-        "check",
-        help="read a case, close its joints and show what it costs",
-        description="Print the scene as a tree, its unknowns, multipliers and mobility, redundant "
-        "constraint rows, and how far the bodies were moved to close the joints.",
-    )
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
     add_case(parser)
     parser.add_argument(
         "--all", action="store_true", help="every line, also of many parts that are alike"
     )
     add_json(parser)
-    parser.set_defaults(call=run)
 
 
 def run(arguments: argparse.Namespace) -> int:

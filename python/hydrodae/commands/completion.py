@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
 
 from hydrodae.errors import HydrodaeError
 
@@ -11,22 +10,13 @@ from hydrodae.errors import HydrodaeError
 SHELLS = ("bash", "zsh", "tcsh")
 
 
-def add_parser(
-    commands: argparse._SubParsersAction[argparse.ArgumentParser],
-    whole: Callable[[], argparse.ArgumentParser],
-) -> None:
-    """Add the command to those of `hydrodae`; `whole` makes the parser with all arguments."""
-    parser = commands.add_parser(
-        "completion",
-        help="print what completes commands and options in a shell",
-        description="Print a script for a shell, which then completes commands and options. For "
-        'bash, in ~/.bashrc: eval "$(hydrodae completion bash)".',
-    )
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
     parser.add_argument("shell", choices=SHELLS)
-    parser.set_defaults(call=lambda arguments: _print(arguments.shell, whole()))
 
 
-def _print(shell: str, parser: argparse.ArgumentParser) -> int:
+def run(arguments: argparse.Namespace) -> int:
+    """Print the script; returns 0."""
     try:
         import shtab
     except ImportError:
@@ -35,5 +25,7 @@ def _print(shell: str, parser: argparse.ArgumentParser) -> int:
         raise HydrodaeError(
             f"completion needs the package shtab: {install_command('completion')}"
         ) from None
-    print(shtab.complete(parser, shell=shell))
+    from hydrodae.commands.parser import ALL, parser_of
+
+    print(shtab.complete(parser_of(ALL), shell=arguments.shell))
     return 0

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import argparse
 
+from hydrodae.commands.options import add_case
 
-def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    """Add the command to those of `hydrodae`."""
-    parser = commands.add_parser("control", help="design a controller for a case")
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
     tasks = parser.add_subparsers(metavar="TASK", required=True)
     design = tasks.add_parser(
         "design",
@@ -16,7 +17,7 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "It takes most power at one period. The impedance comes from the frequency tables.",
         epilog="example: hydrodae control design case.toml --joint slide --period 8",
     )
-    design.add_argument("case", metavar="CASE", help="case file (TOML)")
+    add_case(design, library=False)
     design.add_argument("--joint", metavar="NAME", required=True, help="along which it acts")
     design.add_argument(
         "--period",
@@ -32,14 +33,7 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="a take-off that stays beside the controller; without it all take-offs along joints "
         "are left out; may be repeated",
     )
-    design.add_argument(
-        "--set",
-        metavar="KEY=VALUE",
-        action="append",
-        default=[],
-        help="replace a value of the case, such as force.pto.damping=0; may be repeated",
-    )
-    design.set_defaults(call=run, library=[])
+    design.set_defaults(library=[])
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -8,19 +8,10 @@ from hydrodae.commands.machine import of_equilibrium, print_json
 from hydrodae.commands.options import add_case, add_json
 
 
-def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    """Add the command to those of `hydrodae`."""
-    parser = commands.add_parser(
-        "equilibrium",
-        help="find the static pose of a case in still water",
-        description="Solve for the static pose of the whole constrained scene in still water. "
-        "Print the offsets of the bodies, the reactions of the joints, and the loads on "
-        "coordinates that bodies do not have. For moored scenes print tensions, stiffness of the "
-        "moorings and natural periods.",
-    )
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
     add_case(parser)
     add_json(parser)
-    parser.set_defaults(call=run)
 
 
 def run(arguments: argparse.Namespace) -> int:

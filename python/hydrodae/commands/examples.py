@@ -55,7 +55,6 @@ EXAMPLES = {
         "hydrodae hdb doctor hydro.h5",
         "hydrodae hdb compute --body buoy=sphere:radius=5 --cog buoy=0,0,-2 --omega 0.1,4,40",
     ),
-    "stability-map": ("hydrodae stability-map",),
     "keys": ("hydrodae keys", "hydrodae keys force pto_linear"),
     "schema": ("hydrodae schema",),
     "completion": ("hydrodae completion bash",),

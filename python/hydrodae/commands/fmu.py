@@ -7,15 +7,8 @@ import argparse
 from hydrodae.commands.options import add_case
 
 
-def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    """Add the command to those of `hydrodae`."""
-    parser = commands.add_parser(
-        "fmu",
-        help="write a case as a component for other programs (FMI co-simulation)",
-        description="Write a case as an FMU for co-simulation: an archive with the kernel, the "
-        "case and its database. Inputs hold from one communication point to the next.",
-        epilog="example: hydrodae fmu case.toml -o device.fmu --inputs 'forces/pto/*'",
-    )
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
     add_case(parser, library=False)
     parser.add_argument(
         "-o", "--output", metavar="FILE", help="the FMU (default: CASE with the ending .fmu)"
@@ -35,7 +28,7 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="numbers, truth values and words of the case that an importer may set before the run, "
         "such as solver.rtol",
     )
-    parser.set_defaults(call=run, library=[])
+    parser.set_defaults(library=[])
 
 
 def run(arguments: argparse.Namespace) -> int:

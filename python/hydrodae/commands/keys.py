@@ -12,17 +12,10 @@ if TYPE_CHECKING:
     from hydrodae.case.tables import Key, Table
 
 
-def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    """Add the command to those of `hydrodae`."""
-    parser = commands.add_parser(
-        "keys",
-        help="the keys of a case file: unit, default, range, meaning",
-        description="List the tables of a case file, or the keys of one table or of one type of "
-        "entry, such as 'hydrodae keys force pto_linear'.",
-    )
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
     parser.add_argument("table", metavar="TABLE", nargs="?", help="solver, body, joint, ...")
     parser.add_argument("type", metavar="TYPE", nargs="?", help="revolute, pto_linear, ...")
-    parser.set_defaults(call=run)
 
 
 def run(arguments: argparse.Namespace) -> int:

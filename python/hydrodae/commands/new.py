@@ -15,15 +15,8 @@ if TYPE_CHECKING:
 PROGRAMS = ("wecsim",)
 
 
-def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    """Add the command to those of `hydrodae`."""
-    parser = commands.add_parser(
-        "new",
-        help="write a commented case that runs at once, or one from a run of WEC-Sim",
-        description="Write a folder with a commented case file, its hydrodynamic database, the "
-        "commands that made it, and a study of its power. Without KIND, list the kinds. With "
-        "--from wecsim PATH, convert a run of WEC-Sim and print what the case does not hold.",
-    )
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
     parser.add_argument(
         "kind", metavar="KIND", nargs="?", help="such as point_absorber or flap; none with --from"
     )
@@ -45,7 +38,6 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="with --from: write the case although it lacks this part of the device, such as "
         "waves, pto, joint, mooring or cable. May be repeated",
     )
-    parser.set_defaults(call=run)
 
 
 def run(arguments: argparse.Namespace) -> int:

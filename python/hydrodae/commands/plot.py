@@ -7,13 +7,8 @@ import argparse
 from hydrodae.errors import CaseError
 
 
-def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    """Add the command to those of `hydrodae`."""
-    parser = commands.add_parser(
-        "plot",
-        help="draw results",
-        description="Draw results: joint coordinates, bodies and energy, or the named channels.",
-    )
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
     parser.add_argument("results", metavar="RESULTS", help="results file (HDF5)")
     parser.add_argument(
         "channels",
@@ -33,7 +28,6 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "(else give the SCALE to degrees); may be repeated",
     )
     parser.add_argument("--list", action="store_true", help="list the channels and draw nothing")
-    parser.set_defaults(call=run)
 
 
 def run(arguments: argparse.Namespace) -> int:

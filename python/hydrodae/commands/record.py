@@ -18,15 +18,8 @@ if TYPE_CHECKING:
 Found: TypeAlias = tuple[list[str], list[dict[str, Any]]]
 
 
-def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    """Add the command to those of `hydrodae`."""
-    parser = commands.add_parser(
-        "record",
-        help="waves of a case from a measured elevation, a spectrum, or components with phases",
-        description="Read a file of MATLAB (.mat), CSV or text, and print the [[wave]] tables of a "
-        "case. An elevation is written with equal steps of time to the file of -o, which the "
-        "table names. What was done to the record is printed as comments.",
-    )
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
     parser.add_argument("file", metavar="FILE", help="record (.mat, .csv, .txt, HDF5)")
     parser.add_argument(
         "-o", "--output", metavar="FILE", help="elevation: the record of the case, .csv"
@@ -53,7 +46,6 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser.add_argument(
         "--list", action="store_true", help="list the columns with their ranges, and do no more"
     )
-    parser.set_defaults(call=run)
 
 
 def run(arguments: argparse.Namespace) -> int:

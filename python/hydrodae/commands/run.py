@@ -17,9 +17,8 @@ if TYPE_CHECKING:
 PICTURES = (".png", ".pdf", ".svg", ".jpg", ".jpeg")
 
 
-def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    """Add the command to those of `hydrodae`."""
-    parser = commands.add_parser("run", help="simulate a case file", description="Simulate a case.")
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
     add_case(parser)
     parser.add_argument(
         "-o", "--output", metavar="FILE", help="results file (default: CASE with the ending .h5)"
@@ -58,7 +57,6 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     )
     add_json(parser)
     add_quiet(parser, "no progress, no summary")
-    parser.set_defaults(call=run)
 
 
 def _seconds(text: str) -> float:
@@ -78,7 +76,6 @@ def run(arguments: argparse.Namespace) -> int:
     from pathlib import Path
 
     from hydrodae.commands.arguments import given_case
-    from hydrodae.commands.machine import of_run, print_json
     from hydrodae.errors import CaseError, NotReproducible
     from hydrodae.simulation import simulate
     from hydrodae.support.progress import ProgressLine
@@ -110,6 +107,8 @@ def run(arguments: argparse.Namespace) -> int:
     except NotReproducible as error:
         results, unknown = error.results, error
     if arguments.json:
+        from hydrodae.commands.machine import of_run, print_json
+
         print_json(of_run(results))
     elif not silent:
         _print_summary(results, case, output)

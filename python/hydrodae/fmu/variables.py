@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import fnmatch
 import math
 import tomllib
@@ -16,6 +15,7 @@ from hydrodae.case.contents import case_tables, tables_of
 from hydrodae.case.tables import Key, tables
 from hydrodae.errors import CaseError
 from hydrodae.simulation import Simulation
+from hydrodae.support.nearest import did_you_mean
 
 Value = float | int | bool | str
 
@@ -187,7 +187,6 @@ def _filtered(sort: str, names: Iterable[str], patterns: Sequence[str] | None) -
         return every
     for pattern in patterns:
         if not fnmatch.filter(every, pattern):
-            near = difflib.get_close_matches(pattern, every, n=1)
-            hint = f"; did you mean {near[0]!r}?" if near else f"; there are: {', '.join(every)}"
+            hint = did_you_mean(pattern, every, f"; there are: {', '.join(every)}")
             raise CaseError(f"there is no {sort} {pattern!r}{hint}")
     return [name for name in every if any(fnmatch.fnmatchcase(name, p) for p in patterns)]

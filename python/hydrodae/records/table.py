@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,6 +14,7 @@ from hydrodae.records.matlab import read_hdf5, read_matlab
 from hydrodae.records.text import read_text
 from hydrodae.records.units import split_unit, stated_unit
 from hydrodae.support.arrays import Array
+from hydrodae.support.nearest import did_you_mean
 
 #: Columns that are listed where one is not found.
 _LISTED = 12
@@ -57,9 +57,8 @@ class Table:
             return self.names.index(name)
         if name.isdecimal() and 1 <= int(name) <= len(self.names):
             return int(name) - 1
-        near = difflib.get_close_matches(name, self.names, 1)
-        hint = f"did you mean {near[0]!r}?" if near else f"there are {self.listed()}"
-        raise CaseError(f"{self.path}: no column {name!r}; {hint}")
+        hint = did_you_mean(name, self.names, f"; there are {self.listed()}")
+        raise CaseError(f"{self.path}: no column {name!r}{hint}")
 
     def listed(self) -> str:
         """Names of the columns, for a message."""

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any, Self
 from hydrodae.errors import ResultsWarning
 from hydrodae.results.files import ChannelError, ResultsError, partial_path
 from hydrodae.results.recording import Recording
-from hydrodae.results.series import Statistics, statistics
 from hydrodae.results.summary import summary
-from hydrodae.support import outputs
 
 if TYPE_CHECKING:
     import xarray
+
+    from hydrodae.results.series import Statistics
 
 __all__ = [
     "ChannelError",
@@ -24,6 +24,15 @@ __all__ = [
     "Statistics",
     "partial_path",
 ]
+
+if not TYPE_CHECKING:
+
+    def __getattr__(name: str) -> Any:
+        if name == "Statistics":
+            from hydrodae.results.series import Statistics
+
+            return Statistics
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 class Results(Recording):
@@ -98,7 +107,7 @@ class Results(Recording):
             groups.setdefault(f"/{group}", {})[last] = self[name]
         coords = {"time": self._time_coordinate()}
         tree = {path: xarray.Dataset(held, coords) for path, held in groups.items()}
-        tree["/"].attrs = {key: _storable(value) for key, value in self._header.items()}
+        tree["/"].attrs = {key: _storable(value) for key, value in self._contents.header.items()}
         return xarray.DataTree.from_dict(tree, name=self.title or None)
 
     def to_netcdf(self, path: str | os.PathLike[str], pattern: str = "*") -> Path:
@@ -115,6 +124,8 @@ class Results(Recording):
         ChannelError
             The pattern matches nothing.
         """
+        from hydrodae.support import outputs
+
         path = Path(path)
         if path.exists() and path.samefile(self.path):
             raise ResultsError(f"{path}: is the results file itself; write the copy elsewhere")
@@ -141,6 +152,8 @@ class Results(Recording):
         ResultsError
             No sample is left.
         """
+        from hydrodae.results.series import statistics
+
         if start is None:
             start = self.settled
         series = self._series(name)
@@ -179,7 +192,7 @@ class Results(Recording):
 
     def _matching(self, pattern: str) -> list[str]:
         names = self.channels(pattern)
-        if not names and len(self._names):
+        if not names and len(self._contents.names):
             raise self.missing(pattern)
         return names
 

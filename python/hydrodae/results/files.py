@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import os
-import warnings
 from pathlib import Path
-from typing import Any
-
-import h5py
-import numpy as np
 
 from hydrodae.errors import HydrodaeError, ResultsWarning
-from hydrodae.support.arrays import Array
+
+#: First bytes of an HDF5 file.
+_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 
 
 class ResultsError(HydrodaeError):
@@ -48,7 +45,9 @@ def find(path: Path) -> Path:
         return path
     if not partial.is_file():
         raise ResultsError(f"{path}: no such results file")
-    if not h5py.is_hdf5(partial):
+    with partial.open("rb") as file:
+        begun = file.read(len(_SIGNATURE)) == _SIGNATURE
+    if not begun:
         raise ResultsError(
             f"{path}: no such results file; {partial} is what a run left that was cut off before "
             "its first sample"
@@ -58,27 +57,9 @@ def find(path: Path) -> Path:
 
 
 def _warn(message: str) -> None:
+    import warnings
+
     warnings.warn(message, ResultsWarning, stacklevel=4)
-
-
-def name_of(key: str | bytes) -> str:
-    """Return the name of an attribute; damaged ones come as bytes."""
-    return key.decode("utf-8", "replace") if isinstance(key, bytes) else key
-
-
-def plain(value: Any) -> Any:
-    """Attribute as plain Python: str, int, float, bool or list."""
-    if isinstance(value, bytes):
-        return value.decode()
-    return value.tolist() if isinstance(value, np.generic | np.ndarray) else value
-
-
-def real(values: Any) -> Array:
-    """Values as they are written: real numbers."""
-    found = np.asarray(values)
-    if found.dtype.kind not in "fiu":
-        raise TypeError(f"expected numbers, found {found.dtype}")
-    return found.astype(float)
 
 
 def identity(path: Path) -> tuple[int, int, int]:

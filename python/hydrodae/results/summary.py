@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import numpy as np
+import math
+from collections.abc import Sequence
 
 from hydrodae.results.files import ResultsError
 from hydrodae.results.recording import Recording
-from hydrodae.results.series import intervals_of
 from hydrodae.support.units import displayed
 
 
@@ -101,8 +101,8 @@ def _errors(results: Recording) -> list[str]:
     for name, error in results.accuracy().items():
         if not error.reproducible:
             until = f"reproducible until t = {error.reproducible_until:.4g} s"
-        elif np.isfinite(error.runs_part_at):
-            until = f"error up to {error.relative.max():.1g} of the motion"
+        elif math.isfinite(error.runs_part_at):
+            until = f"error up to {error.largest:.1g} of the motion"
         else:
             continue
         lines.append(f"{name}: {until}; two runs part by 5 % at t = {error.runs_part_at:.4g} s")
@@ -144,6 +144,8 @@ def _expected(results: Recording, name: str) -> list[str]:
     start = results.settled
     if not results.is_sample(start):
         return []
+    from hydrodae.results.series import intervals_of  # with numpy
+
     channel = results.channel(name)
     found = intervals_of(channel.values[results.time >= start])
     if not found:
@@ -166,28 +168,35 @@ def _loads(results: Recording) -> list[str]:
         ]
     else:
         names = [name for name in names if name.rpartition("/")[0] + "/velocity" not in results]
-    start = float(results.statistics.get("mean_power_from", 0.0))
-    kept = results.time >= min(start, results.end_time)
+    start = results.settled
+    first = next((k for k, t in enumerate(results.times) if t >= start), len(results.times) - 1)
     lines = []
     for name in names:
         channel = results.channel(name)
-        values = channel.values.reshape(len(results.time), -1)
-        components = [f".{c}" for c in "xyz"] if values.shape[1] == 3 else [""]
-        for component, series in zip(components, values.T, strict=True):
-            if series.any():
-                mean = f"mean {series[kept].mean():.4g} {channel.unit}"
+        columns = channel.columns
+        components = [f".{c}" for c in "xyz"] if len(columns) == 3 else [""]
+        for component, series in zip(components, columns, strict=True):
+            if any(series):
+                kept = series[first:]
+                mean = f"mean {math.fsum(kept) / len(kept):.4g} {channel.unit}"
                 lines.append((name + component, f"{mean}, {_range(results, series)}"))
     width = max((len(name) for name, _ in lines), default=0)
     head = f"  loads of supports{f', means after {start:g} s' * (start > 0)}:"
     return [head, *(f"    {name:{width}}  {text}" for name, text in lines)] if lines else []
 
 
-def _range(results: Recording, values: np.ndarray) -> str:
-    low, high = int(np.argmin(values)), int(np.argmax(values))
+def _range(results: Recording, values: Sequence[float]) -> str:
+    low, high = _places(values)
     if values[low] == values[high]:
         return "constant"
-    ends = (f"{values[i]:.4g} at {results.time[i]:.2f} s" for i in (low, high))
+    ends = (f"{values[i]:.4g} at {results.times[i]:.2f} s" for i in (low, high))
     return " to ".join(ends)
+
+
+def _places(values: Sequence[float]) -> tuple[int, int]:
+    """Where the least and the largest value are first."""
+    numbers = list(values)
+    return numbers.index(min(numbers)), numbers.index(max(numbers))
 
 
 def _controllers(results: Recording) -> list[str]:
@@ -207,10 +216,10 @@ def _work(results: Recording) -> list[str]:
     head, least = "energy/work/", 1e-3
     channels = map(results.channel, results.channels(f"{head}*"))
     done = {
-        channel.name.removeprefix(head): float(channel.values[-1])
+        channel.name.removeprefix(head): channel.columns[0][-1]
         for channel in channels
-        if len(results.time)
-        and channel.values.ndim == 1
+        if len(results.times)
+        and len(channel.columns) == 1
         and not str(channel.attributes.get("description", "")).startswith("Part of")
     }
     largest = max(map(abs, done.values()), default=0.0)
@@ -236,14 +245,14 @@ def _impacts(results: Recording) -> list[str]:
         times, _ = table["time"]
         impulse, unit = table["impulse"]
         lost, _ = table["energy_lost"]
-        k = int(np.argmax(impulse))
+        _, k = _places(impulse)
         lines.append(
             f"  {name}: struck {len(times)} times, largest impulse {impulse[k]:.4g} {unit} at "
-            f"t = {times[k]:.4g} s, energy lost in all {lost.sum():.4g} J"
+            f"t = {times[k]:.4g} s, energy lost in all {math.fsum(lost):.4g} J"
         )
         if "peak_force" in table:
             peak, unit = table["peak_force"]
-            lines[-1] += f", peak force {peak.max():.4g} {unit}"
+            lines[-1] += f", peak force {max(peak):.4g} {unit}"
     return lines
 
 
@@ -255,26 +264,26 @@ def _overloads(results: Recording) -> list[str]:
         if f"forces/{name}/parted" in results:
             lines += _parting(results, name)
             continue
-        ratio = results.channel(channel).values
-        over = np.flatnonzero(ratio > 1.0)
-        if not len(over):
+        ratio = results.channel(channel).columns[0]
+        first = next((k for k, value in enumerate(ratio) if value > 1.0), None)
+        if first is None:
             continue
-        first, most = int(over[0]), int(np.argmax(ratio))
+        times, (_, most) = results.times, _places(ratio)
         lines.append(
-            f"  {name}: BREAKING LOAD EXCEEDED from t = {results.time[first]:.4g} s, at most "
-            f"{ratio[most]:.3g} times at t = {results.time[most]:.4g} s; the line goes on unbroken"
+            f"  {name}: BREAKING LOAD EXCEEDED from t = {times[first]:.4g} s, at most "
+            f"{ratio[most]:.3g} times at t = {times[most]:.4g} s; the line goes on unbroken"
         )
     return lines
 
 
 def _parting(results: Recording, name: str) -> list[str]:
     """That this rope or line has parted, when and where."""
-    place = results.channel(f"forces/{name}/parted").values
+    place = results.channel(f"forces/{name}/parted").columns[0]
     if not len(place) or not place[-1]:
         return []
-    at = float(results.channel(f"forces/{name}/parted_at").values[-1])
+    at = results.channel(f"forces/{name}/parted_at").columns[0][-1]
     if f"forces/{name}/tension_along" in results:
-        segments = results.channel(f"forces/{name}/tension_along").values.shape[1]
+        segments = len(results.channel(f"forces/{name}/tension_along").columns)
         where = f" in segment {int(place[-1])} of {segments}, counted from end A"
     elif f"forces/{name}/length_on_seabed" in results:
         where = f" in part {int(place[-1])}, counted from end A"
@@ -285,13 +294,12 @@ def _parting(results: Recording, name: str) -> list[str]:
 
 def _extrema(results: Recording, name: str) -> str:
     channel = results.channel(name)
-    values = channel.values
+    values = channel.columns[0]
     if not len(values):
         return "no samples"
     factor, unit = displayed(channel.unit)
     low, high = (
-        f"{factor * values[i]:z8.3f} {unit} at {results.time[i]:.2f} s"
-        for i in (int(np.argmin(values)), int(np.argmax(values)))
+        f"{factor * values[i]:z8.3f} {unit} at {results.times[i]:.2f} s" for i in _places(values)
     )
     return f"{low}  to {high}"
 
@@ -307,11 +315,13 @@ def _energy_balance(results: Recording) -> str:
     # a file of an earlier version, or one cut short
     if "energy/balance_error" not in results or "energy/kinetic" not in results:
         return ""
-    error = np.abs(results.channel("energy/balance_error").values)
-    kinetic = np.abs(results.channel("energy/kinetic").values)
+    error = results.channel("energy/balance_error").columns[0]
+    kinetic = results.channel("energy/kinetic").columns[0]
     if "energy/kinetic_added_mass" in results:
-        kinetic = kinetic + results.channel("energy/kinetic_added_mass").values
-    if not len(error) or not kinetic.max() > 0:
+        added = results.channel("energy/kinetic_added_mass").columns[0]
+        kinetic = [abs(a) + b for a, b in zip(kinetic, added, strict=True)]
+    largest = max(map(abs, kinetic), default=0.0)
+    if not largest > 0:
         return ""
-    share = error.max() / kinetic.max()
+    share = max(map(abs, error)) / largest
     return f"energy balance: error at most {share:.1e} of the largest kinetic energy"

@@ -3,32 +3,28 @@
 from __future__ import annotations
 
 import os
-import shutil
 import signal
-import tempfile
 import warnings
 import weakref
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from threading import Event, current_thread, main_thread
 from types import FrameType
 from typing import TYPE_CHECKING, Any
 
-from hydrodae.case.callbacks.controllers import (
-    Controller,
-    kernel_controllers,
-    repeatable_controllers,
-)
-from hydrodae.case.callbacks.drives import Drive, Kernel, kernel_drives
-from hydrodae.case.callbacks.laws import Force, kernel_forces
-from hydrodae.case.callbacks.names import with_functions
+from hydrodae.case.callbacks import join_functions
 from hydrodae.case.case import CaseLike, read_case
 from hydrodae.errors import CaseError, NotReproducible, RunInterrupted, RunWarning, SolverError
 from hydrodae.results import Results
+from hydrodae.results.recording import doubts_of
 
 if TYPE_CHECKING:
     from hydrodae._core import Scene
+    from hydrodae.case.callbacks import Functions
+    from hydrodae.case.callbacks.controllers import Controller
+    from hydrodae.case.callbacks.drives import Drive
+    from hydrodae.case.callbacks.laws import Force
 
 #: Called with the time and the end time [s] at every output sample; return False to stop the run.
 Progress = Callable[[float, float], bool | None]
@@ -117,12 +113,7 @@ def run(
         The motion is not reproducible to the end, or the case looks wrong (`Results.notes`).
     """
     case = read_case(case, set)
-    functions = (
-        kernel_drives(case.scene, drives),
-        kernel_forces(case.scene, forces),
-        kernel_controllers(case.scene, controllers),
-    )
-    scene = with_functions(case.scene, drives=drives, forces=forces, controllers=controllers)
+    scene, functions = join_functions(case.scene, drives, forces, controllers)
     folder = None
     if output is None:
         if checkpoint is not None or resume:
@@ -134,7 +125,7 @@ def run(
         path.parent.mkdir(parents=True, exist_ok=True)
     older = _stamp(path)
     try:
-        status = _integrate(scene, path, progress, functions, (verify, checkpoint, resume, strict))
+        found = _integrate(scene, path, progress, functions, (verify, checkpoint, resume, strict))
     except SolverError as error:
         error.results = None if _stamp(path) == older else Results(path, owner=folder, sound=True)
         raise
@@ -143,7 +134,7 @@ def run(
             error.results = Results(path, owner=folder, sound=True)  # type: ignore[attr-defined]
         raise
     results = Results(path, owner=folder, sound=True)
-    if status == "interrupted":
+    if found["status"] == "interrupted":
         why = "" if results.message in ("", "stopped on request") else f": {results.message}"
         stopped = RunInterrupted(
             f"stopped at t = {results.end_time:g} s of {case.end_time:g} s{why}"
@@ -154,7 +145,7 @@ def run(
         unknown = NotReproducible(f"strict: {reason}")
         unknown.results = results
         raise unknown
-    if doubts := results.doubts:
+    if doubts := doubts_of(found["reproducible_until"], found["notes"]):
         warnings.warn("; ".join(doubts), RunWarning, stacklevel=2)
     return results
 
@@ -163,15 +154,20 @@ def _integrate(
     scene: Scene,
     path: Path,
     progress: Progress | None,
-    functions: tuple[dict[str, Kernel], dict[str, Force], dict[str, Controller]],
+    functions: Functions,
     options: tuple[str, float | None, bool, bool],
-) -> str:
-    """Run the kernel; returns its status. Exceptions of `progress` end the run and come back here.
+) -> dict[str, Any]:
+    """Run the kernel; returns what it says. Exceptions of `progress` end the run and come here.
 
     The kernel always gets a callback: Python handles signals only while it runs Python.
     """
     from hydrodae import _core
 
+    again: dict[str, Controller] = {}
+    if functions[2]:
+        from hydrodae.case.callbacks.controllers import repeatable_controllers
+
+        again = repeatable_controllers(functions[2])
     verify, checkpoint, resume, strict = options
     failure: list[BaseException] = []
 
@@ -184,20 +180,20 @@ def _integrate(
         return go_on and not interrupt.is_set()
 
     with _interrupt_event() as interrupt:
-        status: str = _core.simulate(
+        found = _core.simulate(
             scene,
             str(path),
             report,
             *functions,
-            repeatable_controllers(functions[2]),
+            again,
             verify,
             -1.0 if checkpoint is None else checkpoint,
             resume,
             strict,
-        )["status"]
+        )
     if failure:
         raise failure[0]
-    return status
+    return found
 
 
 def _stamp(path: Path) -> tuple[int, int] | None:
@@ -236,5 +232,15 @@ class _TemporaryFolder:
     """A folder that is removed when the last object that holds it goes."""
 
     def __init__(self) -> None:
+        import tempfile
+
         self.path = Path(tempfile.mkdtemp(prefix="hydrodae-"))
-        weakref.finalize(self, shutil.rmtree, self.path, ignore_errors=True)
+        weakref.finalize(self, _remove, self.path)
+
+
+def _remove(folder: Path) -> None:
+    """Remove a folder of files, as far as it can be removed."""
+    with suppress(OSError):
+        for file in folder.iterdir():
+            file.unlink()
+        folder.rmdir()

@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from hydrodae.case import Case
-from hydrodae.case.callbacks.controllers import Controller, kernel_controllers
-from hydrodae.case.callbacks.drives import Drive, kernel_drives
-from hydrodae.case.callbacks.laws import Force, kernel_forces
-from hydrodae.case.callbacks.names import with_functions
+from hydrodae.case.callbacks import join_functions
 from hydrodae.case.case import read_case
-from hydrodae.support.arrays import Array
 
 if TYPE_CHECKING:
     from hydrodae._core import State
+    from hydrodae.case.callbacks.controllers import Controller
+    from hydrodae.case.callbacks.drives import Drive
+    from hydrodae.case.callbacks.laws import Force
+    from hydrodae.support.arrays import Array
 
 
 class Simulation:
@@ -61,13 +60,8 @@ class Simulation:
         from hydrodae import _core
 
         self._case = read_case(case, set)
-        scene = self._case.scene
-        self._stepper = _core.Stepper(
-            with_functions(scene, drives=drives, forces=forces, controllers=controllers),
-            kernel_drives(scene, drives),
-            kernel_forces(scene, forces),
-            kernel_controllers(scene, controllers),
-        )
+        scene, functions = join_functions(self._case.scene, drives, forces, controllers)
+        self._stepper = _core.Stepper(scene, *functions)
         self._channels = {name: (width, unit) for name, width, unit in self._stepper.channels}
 
     @property
@@ -136,7 +130,7 @@ class Simulation:
             A controller that is another program, or an FMU, has ended the run, as it ends
             `hydrodae.run`. Only `restore` goes on.
         """
-        return self._stepper.advance(np.inf if limit is None else float(limit))
+        return self._stepper.advance(math.inf if limit is None else float(limit))
 
     def state(self) -> State:
         """All that the run is now, as a value that can be copied, compared and pickled.
@@ -179,7 +173,11 @@ class Simulation:
             There is no such channel.
         """
         values = self._stepper.read(name)
-        return values[0] if len(values) == 1 else np.array(values)
+        if len(values) == 1:
+            return values[0]
+        import numpy as np
+
+        return np.array(values)
 
     def write(self, name: str, value: float) -> None:
         """Hold an input at a value from now on, until the next write.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import json
 import os
 from collections.abc import Mapping, Sequence
@@ -16,6 +15,7 @@ from hydrodae.pictures.curve import read_curve
 from hydrodae.pictures.panels import Line, select
 from hydrodae.results import Results
 from hydrodae.support.arrays import Array
+from hydrodae.support.nearest import did_you_mean
 
 #: Motion below this part of the largest coordinate is rounding.
 _AT_REST = 1e-12
@@ -196,7 +196,6 @@ def _read_json(path: Path, wanted: Sequence[str]) -> tuple[Array, list[Array]]:
         ) from None
     for name in wanted:
         if name not in header[1:]:
-            near = difflib.get_close_matches(name, header[1:], n=1)
-            hint = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(header[1:])}"
-            raise CaseError(f"{path}: no column {name!r}; {hint}")
+            hint = did_you_mean(name, header[1:], f"; there are {', '.join(header[1:])}")
+            raise CaseError(f"{path}: no column {name!r}{hint}")
     return rows[:, 0], [rows[:, header.index(name)] for name in wanted]

@@ -6,12 +6,13 @@ import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TypeVar
-
-import h5py
+from typing import TYPE_CHECKING, TypeVar
 
 from hydrodae.errors import HydrodaeError
 from hydrodae.support.child import ChildEnded, in_child
+
+if TYPE_CHECKING:
+    import h5py
 
 Result = TypeVar("Result")
 
@@ -80,6 +81,7 @@ def reading(
     sound : bool
         This process has written the file: no search, and no child.
     """
+    import h5py
 
     def work() -> Result:
         with h5py.File(path, "r") as file:

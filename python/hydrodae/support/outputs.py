@@ -10,8 +10,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-import h5py
-
 from hydrodae.errors import CaseError
 from hydrodae.support.damaged import reading
 
@@ -148,6 +146,8 @@ def kind_of(path: Path) -> str | None:
             head = file.read(4096)
     except OSError as error:
         raise CaseError(f"{path}: {error.strerror}") from None
+    import h5py  # with numpy, longer to load than a short run takes
+
     if h5py.is_hdf5(path):
         return _kind_of_hdf5(path)
     if head.startswith(b"CDF"):
@@ -158,6 +158,7 @@ def kind_of(path: Path) -> str | None:
 
 
 def _kind_of_hdf5(path: Path) -> str:
+
     try:
         return reading(path, _unknown, HDF5, _kind_of_open)
     except CaseError:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import numpy as np
+import math
 
 
 def displayed(unit: str) -> tuple[float, str]:
@@ -14,5 +14,5 @@ def displayed(unit: str) -> tuple[float, str]:
     ('deg/s', (1.0, 'm'))
     """
     if unit == "rad" or unit.startswith("rad/"):
-        return float(np.degrees(1.0)), "deg" + unit.removeprefix("rad")
+        return math.degrees(1.0), "deg" + unit.removeprefix("rad")
     return 1.0, unit

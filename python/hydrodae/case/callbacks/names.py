@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import difflib
 import dis
 import functools
 import hashlib
@@ -13,6 +12,7 @@ from types import CodeType, FunctionType, MethodType
 from typing import TYPE_CHECKING, Any
 
 from hydrodae.errors import CaseError
+from hydrodae.support.nearest import did_you_mean
 
 if TYPE_CHECKING:
     from hydrodae._core import Scene
@@ -53,10 +53,8 @@ def check_names(
     """
     for name, function in given.items():
         if name not in declared:
-            near = difflib.get_close_matches(name, declared, n=1)
-            hint = f"; did you mean {near[0]!r}?" if near else ""
             raise CaseError(
-                f"{argument}: {name!r} is no {kind}{hint} "
+                f"{argument}: {name!r} is no {kind}{did_you_mean(name, declared)} "
                 f"(valid: {', '.join(declared) or 'none in this case'})"
             )
         if not callable(function):

@@ -110,17 +110,16 @@ class Model:
     def exact_jacobian(self, x: Array) -> Array:
         """The same by formulas of fourth order, exact where the differences are affine."""
         columns = []
-        here = {"r": self.differences(x)}
+        here = self.differences(x)
         for n, one in enumerate(self.unknowns):
             if one.parameter is None:
                 columns.append(self._shifted(n, x))
                 continue
 
-            def at(y: float, n: int = n) -> Mapping[str, Any]:
-                return {"r": self.differences(_moved(x, n, y - 1.0))}
+            def at(y: float, n: int = n) -> Array:
+                return self.differences(_moved(x, n, y - 1.0))
 
-            slopes, _, _ = derivative(at, 1.0, here)
-            columns.append(np.asarray(slopes["r"]))
+            columns.append(derivative(at, 1.0, here)[0])
         return np.stack(columns, axis=1)
 
     def values(self, x: Array) -> dict[str, Any]:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
 from hydrodae import _core
 from hydrodae.errors import CaseError
+from hydrodae.support.nearest import did_you_mean
 
 #: What the kernel says of each integrator, by name; "auto" chooses among them.
 TRAITS: dict[str, dict[str, Any]] = {
@@ -98,9 +98,8 @@ def parse_method(spec: str) -> Method:
     """
     name, colon, order = (part.strip() for part in spec.partition(":"))
     if name not in TRAITS:
-        near = difflib.get_close_matches(name, TRAITS, n=1)
-        hint = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(TRAITS)}"
-        raise CaseError(f"{spec!r}: no such method; {hint}")
+        hint = did_you_mean(name, TRAITS, f"; there are {', '.join(TRAITS)}")
+        raise CaseError(f"{spec!r}: no such method{hint}")
     if not colon:
         return Method(name)
     traits = TRAITS[name]

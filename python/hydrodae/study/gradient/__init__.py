@@ -13,11 +13,10 @@ from hydrodae.case.case import CaseLike, read_case
 from hydrodae.errors import CaseError
 from hydrodae.linear import without_memory
 from hydrodae.study.gradient.controllers import require_smooth
-from hydrodae.study.gradient.linear import linear_gradient
+from hydrodae.study.gradient.linear import linear_gradient, spectral_gradient
 from hydrodae.study.gradient.parameters import Parameter, read_parameter, values_of
 from hydrodae.study.gradient.quantity import Found, Quantity, quantity
 from hydrodae.study.gradient.runs import run_gradient
-from hydrodae.study.gradient.spectral import spectral_gradient
 from hydrodae.support.arrays import Array
 
 __all__ = ["Gradient", "Objective", "gradient", "objective"]
@@ -46,8 +45,8 @@ class Gradient:
     gradient : (n,) array
         Unit of the value over those of the parameters.
     affine : tuple of bool
-        For each parameter: matrices (linear models) or value (runs) are affine in it, and the
-        difference is exact to rounding; else it is of fourth order.
+        For each parameter: the value is affine in it, and the difference exact to rounding; else
+        the difference is of fourth order.
     calls : int
         Linearisations or runs of the case.
     rung : str
@@ -86,13 +85,10 @@ def gradient(
 ) -> Gradient:
     """Gradient of a mean power, or of a statistic of a channel, with respect to keys of a case.
 
-    In the frequency domain the linear system of the case in its sea, Z xi - G^T lambda = F,
-    G xi = 0, is differentiated exactly: Z dxi - G^T dlambda = dF - dZ xi + dG^T lambda. The
-    matrices' own derivatives are differences, exact to rounding where they are affine in the key
-    (masses, stiffnesses, dampings, amplitudes of waves), else of fourth order; the static
-    equilibrium moves with the key. By statistical linearisation the fixed point of motion and
-    linear equivalents is differentiated implicitly, likewise. In the time domain runs with the
-    same fixed steps are differenced (internal numerical
+    All are differences of fourth order with steps of a thousandth of the value of the key. In the
+    frequency domain the case is linearised again at each step, about its static equilibrium, which
+    moves with the key; by statistical linearisation motion and linear equivalents are found again.
+    In the time domain runs with the same fixed steps are differenced (internal numerical
     differentiation).
 
     Parameters

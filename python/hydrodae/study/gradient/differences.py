@@ -1,24 +1,25 @@
-"""Derivatives of arrays with respect to one number, by differences."""
+"""Derivatives of a number with respect to parameters of a case, by differences."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
+from hydrodae.case import Case
 from hydrodae.errors import CaseError
+from hydrodae.study.gradient.parameters import Parameter
+from hydrodae.study.gradient.quantity import Found
 from hydrodae.support.arrays import Array
-
-Arrays = dict[str, Any]
 
 #: Step over the value of the parameter.
 STEP = 1e-3
 #: Of what a second difference may be of the first one where a dependence counts as affine.
 AFFINE = 1e-7
-#: Of what rounding may be of the size of an array.
+#: Of what rounding may be of the number itself.
 ROUNDING = 1e-11
-#: Relative change of an array that a step from zero has to make, to be seen above rounding.
+#: Relative change of the number that a step from zero has to make, to be seen above rounding.
 SEEN = 1e-6
 
 CENTRAL, FORWARD, BACKWARD = (-1, 0, 1), (0, 1, 2), (-2, -1, 0)
@@ -30,24 +31,53 @@ WIDE: dict[tuple[int, ...], tuple[int, ...]] = {
 }
 
 
-def derivative(
-    at: Callable[[float], Mapping[str, Any]], x: float, here: Mapping[str, Any]
-) -> tuple[Arrays, bool, int]:
-    """Derivatives of arrays with respect to x.
+def slopes_of(
+    value: Callable[[Case], float], case: Case, parameters: Sequence[Parameter], unit: str
+) -> Found:
+    """Value of a case, and its derivatives with respect to parameters.
+
+    Parameters
+    ----------
+    value : callable
+    case : Case
+    parameters : sequence of Parameter
+    unit : str
+        Of the value.
+
+    Raises
+    ------
+    CaseError
+        Cases with smaller and with larger values of a parameter are refused.
+    """
+    here, slopes, affine, calls = value(case), [], [], 1
+    for parameter in parameters:
+
+        def at(x: float, parameter: Parameter = parameter) -> float:
+            return value(case.with_values(parameter.values(x)))
+
+        slope, exact, count = derivative(at, parameter.value, here)
+        slopes.append(float(slope))
+        affine.append(exact)
+        calls += count
+    return Found(here, np.array(slopes), tuple(affine), calls, unit)
+
+
+def derivative(at: Callable[[float], Any], x: float, here: Any) -> tuple[Any, bool, int]:
+    """Derivative of a number, or of an array, with respect to x.
 
     Parameters
     ----------
     at : callable
-        Arrays by name, of shapes that do not change.
+        The number or array at x, of a shape that does not change.
     x : float
-    here : mapping
+    here : float or array
         ``at(x)``.
 
     Returns
     -------
-    derivatives : dict
+    derivative : float or array
     affine : bool
-        The arrays are affine in x, and their derivatives exact to rounding; else the formula is of
+        The value is affine in x, and its derivative exact to rounding; else the formula is of
         fourth order with a step of a thousandth of x.
     calls : int
         Of `at`.
@@ -55,36 +85,26 @@ def derivative(
     Raises
     ------
     CaseError
-        `at` refuses both sides of x, or a shape changes.
+        `at` refuses both sides of x.
     """
-    seen: dict[int, Mapping[str, Any]] = {0: here}
+    seen: dict[int, Any] = {0: here}
     step, calls = _first_step(at, x, here, seen)
 
-    def value(node: int) -> Mapping[str, Any]:
+    def known(node: int) -> Any:
         if node not in seen:
             seen[node] = at(x + node * step)
-            _check_shapes(here, seen[node])
         return seen[node]
 
-    nodes, tried = _nodes(value), len(seen)
+    nodes, tried = _nodes(known), len(seen)
     affine = _is_affine([seen[n] for n in nodes])
     if not affine:
         nodes = WIDE[nodes]
-        for node in nodes:
-            value(node)
-    weights = _weights(nodes)
-    out = {
-        name: sum(w * seen[n][name] for n, w in zip(nodes, weights, strict=True)) / step
-        for name in here
-    }
-    return out, affine, calls + max(tried, len(seen)) - 1
+    slope = sum(w * known(node) for node, w in zip(nodes, _weights(nodes), strict=True)) / step
+    return slope, affine, calls + max(tried, len(seen)) - 1
 
 
 def _first_step(
-    at: Callable[[float], Mapping[str, Any]],
-    x: float,
-    here: Mapping[str, Any],
-    seen: dict[int, Mapping[str, Any]],
+    at: Callable[[float], Any], x: float, here: Any, seen: dict[int, Any]
 ) -> tuple[float, int]:
     """A thousandth of x; from zero the first of 1e-3, 1, 1000, ... that makes a change."""
     if x != 0.0:
@@ -92,18 +112,16 @@ def _first_step(
     step, calls = STEP, 0
     for step in (1e-3, 1.0, 1e3, 1e6, 1e9):
         try:
-            there = at(step)
+            seen[1] = at(step)
         except CaseError:
             break
         calls += 1
-        _check_shapes(here, there)
-        seen[1] = there
-        if any(_size(there[k] - here[k]) > SEEN * _size(here[k]) for k in here):
+        if _size(seen[1] - here) > SEEN * _size(here):
             break
     return step, calls - (1 in seen)
 
 
-def _nodes(value: Callable[[int], Mapping[str, Any]]) -> tuple[int, ...]:
+def _nodes(value: Callable[[int], Any]) -> tuple[int, ...]:
     """Three nodes about x, on one side of it where the other one is refused."""
     refused: CaseError | None = None
     for nodes in (CENTRAL, FORWARD, BACKWARD):
@@ -118,28 +136,16 @@ def _nodes(value: Callable[[int], Mapping[str, Any]]) -> tuple[int, ...]:
     raise refused
 
 
-def _is_affine(three: list[Mapping[str, Any]]) -> bool:
+def _is_affine(three: list[Any]) -> bool:
     a, b, c = three
-    return all(
-        _size(c[k] - 2.0 * b[k] + a[k]) <= AFFINE * _size(c[k] - a[k]) + ROUNDING * _size(b[k])
-        for k in b
-    )
+    return _size(c - 2.0 * b + a) <= AFFINE * _size(c - a) + ROUNDING * _size(b)
+
+
+def _size(value: Any) -> float:
+    return float(np.max(np.abs(value), initial=0.0))
 
 
 def _weights(nodes: tuple[int, ...]) -> Array:
     """Weights of the first derivative, exact for polynomials of the degree len(nodes) - 1."""
     powers = np.vander(np.array(nodes, dtype=float), increasing=True).T
     return np.asarray(np.linalg.solve(powers, np.eye(len(nodes))[1]))
-
-
-def _size(array: Any) -> float:
-    return float(np.max(np.abs(array), initial=0.0))
-
-
-def _check_shapes(here: Mapping[str, Any], there: Mapping[str, Any]) -> None:
-    for name, array in here.items():
-        if np.shape(array) != np.shape(there[name]):
-            raise CaseError(
-                f"no derivative: the number of unknowns, constraints or waves changes with it "
-                f"({name}: {np.shape(array)} and {np.shape(there[name])})"
-            )

@@ -67,7 +67,7 @@ class Found:
     gradient : (n,) array
         By parameter.
     affine : tuple of bool
-        For each parameter: what is differenced is affine in it, and exact to rounding.
+        For each parameter: the value is affine in it, and the difference exact to rounding.
     calls : int
         Linearisations or runs of the case.
     unit : str

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
-
-import numpy as np
+from dataclasses import replace
 
 from hydrodae import _core
 from hydrodae.case import Case
 from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError
 from hydrodae.simulation import run
-from hydrodae.study.gradient.differences import derivative
+from hydrodae.study.gradient.differences import slopes_of
 from hydrodae.study.gradient.parameters import Parameter
 from hydrodae.study.gradient.quantity import POWER, Found, Quantity
 
@@ -35,18 +33,15 @@ def run_gradient(case: Case, what: Quantity, parameters: Sequence[Parameter]) ->
         A run failed.
     """
     _check_steps(case)
-    here, unit = _measured(case, what)
-    slopes, affine, calls = [], [], 1
-    for parameter in parameters:
+    units: list[str] = []
 
-        def at(x: float, parameter: Parameter = parameter) -> dict[str, Any]:
-            return _measured(case.with_values(parameter.values(x)), what)[0]
+    def value(there: Case) -> float:
+        number, unit = _measured(there, what)
+        units.append(unit)
+        return number
 
-        d, exact, count = derivative(at, parameter.value, here)
-        slopes.append(float(d["value"]))
-        affine.append(exact)
-        calls += count
-    return Found(float(here["value"]), np.array(slopes), tuple(affine), calls, unit)
+    found = slopes_of(value, case, parameters, "")
+    return replace(found, unit=units[0])
 
 
 def _check_steps(case: Case) -> None:
@@ -59,12 +54,11 @@ def _check_steps(case: Case) -> None:
         )
 
 
-def _measured(case: Case, what: Quantity) -> tuple[dict[str, Any], str]:
+def _measured(case: Case, what: Quantity) -> tuple[float, str]:
     """The quantity of a run, and its unit."""
     results = run(case, set={"solver.accuracy": "none"})
     if what.measure is not None:
-        value, unit = what.measure(results)
-        return {"value": np.array(value)}, unit
+        return what.measure(results)
     keys = [f"{POWER}.{name}" for name in what.take_offs(case)]
     if what.name == POWER and POWER in results.statistics:
         keys = [POWER]
@@ -74,4 +68,4 @@ def _measured(case: Case, what: Quantity) -> tuple[dict[str, Any], str]:
             f"the run has no {missing[0]}: mean powers are taken after the ramp of the waves "
             "(sea.ramp), which the run does not reach"
         )
-    return {"value": np.array(sum(float(results.statistics[key]) for key in keys))}, "W"
+    return sum(float(results.statistics[key]) for key in keys), "W"

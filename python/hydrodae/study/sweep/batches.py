@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import zlib
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from hydrodae import _core
 from hydrodae.case import Case
 from hydrodae.errors import HydrodaeError, SolverError
 from hydrodae.study.sweep.journal import Row
-from hydrodae.study.sweep.measures import Measure, MeasureError, measure, of_statistics
+from hydrodae.study.sweep.measures import Measure, MeasureError, of_statistics
 from hydrodae.study.sweep.plan import RUNG, Study, point_key
 from hydrodae.study.sweep.points import Point
 from hydrodae.study.sweep.rungs import DEFAULT, run_rung, with_capture_width

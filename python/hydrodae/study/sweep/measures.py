@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 import re
 from collections.abc import Callable, Mapping
@@ -17,6 +16,7 @@ from hydrodae.results import Results
 from hydrodae.results.sampling import INTERVALS, NONE, Interval
 from hydrodae.study.sweep.fatigue import damage_equivalent_load, require_rainflow
 from hydrodae.support.arrays import Array
+from hydrodae.support.nearest import did_you_mean
 
 #: Numbers of a series of samples.
 STATISTICS: dict[str, Callable[[Array], float]] = {
@@ -173,11 +173,8 @@ def make_measure(file: Path, name: str, table: Any) -> Measure:
         raise CaseError(f"{where}: expected a table with a 'channel', or with 'terms' of several")
     for key in table:
         if key not in keys:
-            near = difflib.get_close_matches(key, keys, 1)
-            raise CaseError(
-                f"{where}: unknown key {key!r}"
-                + (f"; did you mean {near[0]!r}?" if near else f"; valid: {', '.join(keys)}")
-            )
+            hint = did_you_mean(key, keys, f"; valid: {', '.join(keys)}")
+            raise CaseError(f"{where}: unknown key {key!r}{hint}")
     for key in ("channel", "statistic", "component", "unit", "over"):
         if not isinstance(table.get(key, ""), str):
             raise CaseError(f"{where}: key {key!r}: expected a text, got {table[key]!r}")
@@ -187,10 +184,9 @@ def make_measure(file: Path, name: str, table: Any) -> Measure:
     statistic = table.get("statistic", "mean")
     known = [*STATISTICS, FATIGUE]
     if statistic not in known:
-        near = difflib.get_close_matches(str(statistic), known, 1)
         raise CaseError(
             f"{where}: key 'statistic': {statistic!r} is not one of {', '.join(known)}"
-            + (f"; did you mean {near[0]!r}?" if near else "")
+            + did_you_mean(statistic, known)
         )
     if not re.fullmatch(r"[^\W\d][\w-]*", name):
         raise CaseError(f"{where}: a name has letters, digits, - and _, and begins with a letter")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import difflib
 import itertools
 import json
 import math
@@ -17,6 +16,7 @@ import numpy as np
 
 from hydrodae.errors import CaseError
 from hydrodae.support import outputs
+from hydrodae.support.nearest import did_you_mean
 
 Point = dict[str, Any]
 #: Points of one study at most: each is kept in memory, and a run takes some hundredths of a second.
@@ -223,6 +223,5 @@ def known(file: Path, where: str, table: Any, names: Sequence[str]) -> None:
         raise CaseError(f"{file}: [{where}]: expected a table")
     for name in table:
         if name not in names:
-            near = difflib.get_close_matches(name, names, 1)
-            said = f"; did you mean {near[0]!r}?" if near else f"; valid: {', '.join(names)}"
+            said = did_you_mean(name, names, f"; valid: {', '.join(names)}")
             raise CaseError(f"{file}: {f'[{where}] ' * bool(where)}unknown key {name!r}{said}")

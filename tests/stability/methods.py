@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from hydrodae.study.stability.scene import Scene
+from tests.stability.scene import Scene
 
 
 @dataclass(frozen=True)

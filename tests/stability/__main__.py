@@ -1,17 +1,31 @@
-"""The command `hydrodae stability-map`."""
+"""The command of the stability map: `python -m tests.stability`.
+
+A cell shows the error of a run that passed, or that it stopped, was refused (-), or returned
+success with a wrong motion. Exit code 1 if one did.
+"""
 
 from __future__ import annotations
 
 import argparse
 import difflib
+import sys
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from rich.console import Console
+from tests.stability import grid, show
+
+from hydrodae.commands.cli import guarded
 from hydrodae.errors import CaseError
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command to its parser."""
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Make the map that the arguments ask for; returns 1 if a cell is wrong, else 0."""
+    return guarded(lambda: _run(_options(arguments)))
+
+
+def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="python -m tests.stability", description=__doc__)
     parser.add_argument(
         "--scenes", metavar="NAME", nargs="+", help="rows (default: all; see --list)"
     )
@@ -22,14 +36,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--json", metavar="FILE", help="write the cells")
     parser.add_argument("--picture", metavar="FILE", help="draw the map (PNG, SVG, PDF)")
+    return parser.parse_args(arguments)
 
 
-def run(arguments: argparse.Namespace) -> int:
-    """Make the map that the arguments ask for; returns 1 if a cell is wrong, else 0."""
-    from rich.console import Console
-
-    from hydrodae.study.stability import grid, show
-
+def _run(arguments: argparse.Namespace) -> int:
     scenes, methods = grid.all_scenes(), grid.all_methods()
     console = Console(emoji=False)
     if arguments.list:
@@ -68,3 +78,7 @@ def _chosen(
             hint = f"; did you mean {near[0]}?" if near else ""
             raise CaseError(f"there is no {kind} {name!r}{hint}; --list prints all")
     return [items[name] for name in names]
+
+
+if __name__ == "__main__":
+    sys.exit(main())

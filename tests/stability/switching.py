@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
+from tests.stability.scene import Scene
 
 from hydrodae.results import Results
-from hydrodae.study.stability.scene import Scene
 from hydrodae.support.arrays import Array
 
 GRAVITY = 9.81

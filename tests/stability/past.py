@@ -8,9 +8,9 @@ from typing import Any
 import h5py
 import numpy as np
 from scipy.integrate import solve_ivp
+from tests.stability import truths, water
+from tests.stability.scene import Scene
 
-from hydrodae.study.stability import truths, water
-from hydrodae.study.stability.scene import Scene
 from hydrodae.support.arrays import Array
 
 MASS, STIFFNESS, DAMPING, DELAY, START = 2.0, 8.0, 0.4, 0.7, 0.3

@@ -11,13 +11,14 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from tests.stability import mechanics, past, switching, water
+from tests.stability.methods import METHODS, Method
+from tests.stability.scene import Scene
+
 from hydrodae.case import Case
 from hydrodae.errors import CaseError, HydrodaeError, RunInterrupted, SolverError
 from hydrodae.results import Results
 from hydrodae.simulation import run
-from hydrodae.study.stability import mechanics, past, switching, water
-from hydrodae.study.stability.methods import METHODS, Method
-from hydrodae.study.stability.scene import Scene
 
 PASS, STOPPED, REFUSED, WRONG = "pass", "stopped", "refused", "wrong"
 

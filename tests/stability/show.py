@@ -7,7 +7,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from hydrodae.study.stability.grid import PASS, REFUSED, STOPPED, WRONG, Cell
+from tests.stability.grid import PASS, REFUSED, STOPPED, WRONG, Cell
+
 from hydrodae.support import outputs
 
 if TYPE_CHECKING:

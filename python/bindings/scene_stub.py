@@ -1,15 +1,28 @@
-"""The stub of `hydrodae.Scene`: its methods are made when it is imported, from the same tables."""
+"""Write the stub of `hydrodae.Scene`, whose methods are made of the tables of the kernel.
+
+    python python/bindings/scene_stub.py FILE                    # of the installed package
+    python python/bindings/scene_stub.py FILE --kernel _core.so  # of this source and that kernel
+
+The build does it, so that editors and type checkers find the stub in the installed package.
+tests/run.sh puts it beside the source, for mypy; git ignores it there.
+"""
 
 from __future__ import annotations
 
+import argparse
+import sys
 import textwrap
 from collections.abc import Iterable
 from dataclasses import replace
+from importlib.machinery import ExtensionFileLoader
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from typing import TYPE_CHECKING
 
-from hydrodae.case.builder.methods import docstring
-from hydrodae.case.tables import Key, Table
+if TYPE_CHECKING:
+    from hydrodae.case.tables import Key, Table
 
-HEAD = '''"""Scenes built in Python. Made by docs/reference.py from the fields of the kernel."""
+HEAD = '''"""Scenes built in Python. Made by scene_stub.py from the fields of the kernel."""
 
 from collections.abc import Sequence
 from typing import Any, Literal, TypedDict
@@ -93,6 +106,8 @@ def method(table: Table, kind: Table, words: Words) -> str:
         lines.append(f"{key.name}: {annotation(kind, key, words)}{default},")
     lines += [f"{inner.name}: {camel_case(kind.name, inner.name)} = ...," for inner in kind.nested]
     arguments = textwrap.indent("\n".join(lines), " " * 8)
+    from hydrodae.case.builder.methods import docstring
+
     text = textwrap.indent(docstring(table, kind), " " * 8, lambda line: bool(line.strip()))
     result = "str" if table.is_list else "None"
     head = f"    def {kind.name}(\n{arguments}\n    ) -> {result}:\n"
@@ -122,3 +137,31 @@ def annotation(owner: Table, key: Key, words: Words) -> str:
 def quoted(word: str) -> str:
     """A word in double quotes."""
     return f'"{word}"'
+
+
+def load_kernel(path: str) -> None:
+    """Make this file `hydrodae._core`, and take `hydrodae` from this source."""
+    sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+    name = "hydrodae._core"
+    spec = spec_from_file_location(name, path, loader=ExtensionFileLoader(name, path))
+    assert spec is not None
+    assert spec.loader is not None
+    sys.modules[name] = module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+
+
+def main() -> None:
+    """Write the stub."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("file", metavar="FILE", type=Path)
+    parser.add_argument("--kernel", metavar="FILE", help="the compiled module `hydrodae._core`")
+    arguments = parser.parse_args()
+    if arguments.kernel:
+        load_kernel(arguments.kernel)
+    from hydrodae.case.tables import tables
+
+    arguments.file.write_text(scene_stub(tables()), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -11,10 +11,10 @@ from typing import Any
 
 import h5py
 import numpy as np
+from tests.stability import truths
+from tests.stability.scene import Scene
 
 from hydrodae.results import Results
-from hydrodae.study.stability import truths
-from hydrodae.study.stability.scene import Scene
 from hydrodae.support.arrays import Array
 
 MASS, ADDED_MASS, STIFFNESS, POLE = 1000.0, 500.0, 6000.0, -1.0

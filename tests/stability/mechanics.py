@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from tests.stability import truths
+from tests.stability.scene import SMALLEST, Scene
 
 from hydrodae.results import Results
-from hydrodae.study.stability import truths
-from hydrodae.study.stability.scene import SMALLEST, Scene
 from hydrodae.support.arrays import Array
 
 Table = dict[str, Any]

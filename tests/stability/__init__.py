@@ -3,8 +3,8 @@
 A run that returns success with a wrong motion is the one outcome that must not happen.
 """
 
-from hydrodae.study.stability.grid import Cell, all_methods, all_scenes, run_cell, stability_map
-from hydrodae.study.stability.methods import Method
-from hydrodae.study.stability.scene import Scene
+from tests.stability.grid import Cell, all_methods, all_scenes, run_cell, stability_map
+from tests.stability.methods import Method
+from tests.stability.scene import Scene
 
 __all__ = ["Cell", "Method", "Scene", "all_methods", "all_scenes", "run_cell", "stability_map"]
