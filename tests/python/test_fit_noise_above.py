@@ -9,12 +9,12 @@ import pytest
 from tests.errors import refused
 
 from hydrodae import hdb
-from hydrodae.hdb.checks.lone import lone_findings
+from hydrodae.hdb.checks.smooth import lone_findings
 from hydrodae.hdb.memory.data import least_damping, with_zero
 from hydrodae.hdb.memory.fit import _near as as_near
 from hydrodae.hdb.memory.goal import Goal, Quality
+from hydrodae.hdb.memory.goal import noise as noise_of
 from hydrodae.hdb.memory.modes import Problem
-from hydrodae.hdb.memory.noise import noise as noise_of
 from hydrodae.hdb.memory.vector_fitting import Limits
 from hydrodae.hdb.preparation.fit_stages import goes_on
 from hydrodae.hdb.preparation.left_out import cure, ways_out

@@ -19,7 +19,7 @@ from tests.python.nemoh_writer import NemohFolder
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.checks.hulls import hull_findings
-from hydrodae.hdb.checks.spikes import spike_findings
+from hydrodae.hdb.checks.smooth import spike_findings
 from hydrodae.hdb.readers.reading import read_source
 
 OWN = "own_nemoh"  #: A folder that the tests write themselves, in every clone.

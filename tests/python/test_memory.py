@@ -105,7 +105,7 @@ def test_passivity_finds_a_narrow_dip() -> None:
 
 @pytest.mark.parametrize(
     ("options", "reason", "subject"),
-    [({"method": "era"}, "option", "method"), ({"uniform": 0.0}, "option", "uniform")],
+    [({"uniform": 0.0}, "option", "uniform")],
 )
 def test_bad_options_of_a_fit(exact: Table, options: dict, reason: str, subject: str) -> None:
     with refused(reason, subject):
@@ -278,9 +278,8 @@ def _noisy(table: Table) -> Table:
     return replace(table, radiation_damping=table.radiation_damping + noise)
 
 
-@pytest.mark.parametrize("method", ["auto", "hankel"])
 def test_no_moment_of_the_time_limit_gives_a_fit_that_is_not_passive(
-    exact: Table, monkeypatch: pytest.MonkeyPatch, method: str
+    exact: Table, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The clock ends after so many looks at it: some stop the search before any fit is passive."""
     noisy = _noisy(exact)
@@ -297,7 +296,7 @@ def test_no_moment_of_the_time_limit_gives_a_fit_that_is_not_passive(
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", MemoryFitWarning)
             try:
-                memory = fit_memory(noisy, LABELS, max_states=12, method=method)
+                memory = fit_memory(noisy, LABELS, max_states=12)
             except DatabaseError as error:
                 ends.append(str(error))
                 continue

@@ -1,4 +1,4 @@
-"""Ways to fit the exponential memory: Hankel realisation, vector fit; noise and passivity."""
+"""Fits of the exponential memory: many coordinates, noise, fast poles and passivity."""
 
 from __future__ import annotations
 
@@ -13,10 +13,9 @@ from tests.verification.point_absorbers import Table
 from hydrodae import hdb
 from hydrodae.hdb.memory import MemoryFitWarning, fit_memory
 from hydrodae.hdb.memory import data as prepare
-from hydrodae.hdb.memory.candidate import Candidate, Search
-from hydrodae.hdb.memory.direct import direct
 from hydrodae.hdb.memory.goal import Goal, measure
-from hydrodae.hdb.memory.vector_fitting import FASTEST, SEEN
+from hydrodae.hdb.memory.search import fit_problem
+from hydrodae.hdb.memory.vector_fitting import SEEN
 
 
 @pytest.fixture(scope="module")
@@ -40,25 +39,8 @@ def test_non_passive_data_give_a_passive_fit_that_says_so(exact: Table) -> None:
     )
 
 
-def test_hankel_realisation_keeps_to_the_states_allowed(exact: Table) -> None:
-    # of seven states one is a real pole at the highest frequency of K(t), which counts twice
-    memory = fit_memory(exact, LABELS, method="hankel", uniform=1e-3, max_states=7)
-    assert memory.n_states <= 7
-
-
-def test_hankel_realisation_finds_the_same_modes(exact: Table) -> None:
-    memory = fit_memory(exact, LABELS, method="hankel", uniform=1e-3)
-    assert memory.n_states <= 8
-    assert memory.report["passive"] is True
-    assert memory.report["method"].startswith("Hankel")
-    assert memory.report["h_error_peak"] < 1e-3
-    omega = np.linspace(0.3, 1.0, 50)
-    off = np.abs(memory.transfer(omega) - exact_transfer(omega))
-    scale = np.sqrt(np.einsum("wii->wi", exact.radiation_damping).max(axis=0))
-    assert (off / scale / scale[:, None]).max() < 2e-3
-
-
-def test_a_vector_fit_alone_finds_them_where_the_table_ends_early() -> None:
+def test_groups_of_many_coordinates_keep_to_the_states_allowed(exact: Table) -> None:
+    """Modes leave a tenth at a time; the table ends early."""
     omega = np.arange(0.02, 0.83, 0.02)
     short = table(exact_transfer(omega), omega)
     data = prepare.gather(short, LABELS, LABELS)
@@ -66,21 +48,13 @@ def test_a_vector_fit_alone_finds_them_where_the_table_ends_early() -> None:
     pick = np.arange(len(LABELS))
     matrices = prepare.scaled(data.square, data.scale, pick)
     problem = prepare.make_problem(data.omega, matrices, goal.band, goal.factor)
-    problem = replace(problem, limits=problem.limits._replace(fastest=FASTEST))
     said: list[str] = []
-
-    def best(cap: int | None) -> Candidate:
-        search = Search(problem, goal, cap, True, said.append)
-        for modes in direct(search):
-            search.judge(modes, "direct")
-        return search.best()
-
-    found = best(None)
+    found = fit_problem(problem, goal, None, True, said.append)
     assert found.passive
     assert goal.met(found.quality)
     assert found.modes.n_states <= 24
     assert any("vector fit with 12 poles" in text for text in said)
-    few = best(6)
+    few = fit_problem(problem, goal, 6, True, said.append)
     assert few.passive
     assert few.modes.n_states <= 6
 

@@ -193,7 +193,7 @@ def test_noise_is_symmetrised() -> None:
 def test_a_fit_that_misses_its_target_is_refused(repository: Path) -> None:
     """Unless it is accepted by name; with a number of states the best of so many is taken."""
     database = hdb.read(repository / "cases" / "sphere" / "hydro.h5")
-    options: dict[str, Any] = {"band": (0.3, 3.0), "target": 1e-7, "method": "hankel"}
+    options: dict[str, Any] = {"band": (0.3, 3.0), "target": 1e-7}
     with pytest.raises(DatabaseError, match=r"misses its target .* Not kept: .* --accept target"):
         hdb.fit(database, "sphere.heave", **options)
     with pytest.warns(MemoryFitWarning, match="misses its target"):

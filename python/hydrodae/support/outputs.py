@@ -9,9 +9,13 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from hydrodae.errors import CaseError
 from hydrodae.support.damaged import reading
+
+if TYPE_CHECKING:
+    import h5py
 
 DATABASE = "hydrodynamic database"
 RESULTS = "results file"

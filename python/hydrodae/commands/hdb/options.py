@@ -138,11 +138,6 @@ def add_fit_options(parser: argparse.ArgumentParser) -> None:
         "The default band is then the one that the device feels",
     )
     parser.add_argument(
-        "--method",
-        choices=("auto", "modes", "hankel"),
-        help="modes for few coordinates, hankel for many (default: by their number)",
-    )
-    parser.add_argument(
         "--time-limit",
         metavar="SECONDS",
         type=float,
@@ -195,7 +190,6 @@ def with_fits(database: HydroDatabase, specs: list[str], args: argparse.Namespac
                 states=args.states,
                 target=args.target,
                 uniform=args.uniform,
-                method=args.method,
                 time_limit=args.time_limit,
                 accept=[check for check in args.accept if check in CHECKS],
                 progress=progress,

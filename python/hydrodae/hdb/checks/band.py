@@ -61,6 +61,13 @@ def inside(omega: Array, band: Band) -> NDArray[np.bool_]:
     return np.asarray((omega >= band[0] - 1e-9) & (omega <= band[1] + 1e-9))
 
 
+def largest_of_kind(database: HydroDatabase, sizes: Array) -> Array:
+    """Return the largest of sizes (..., n) among translations or rotations, of each; (..., n)."""
+    turns = np.array([label.is_rotation for label in database.labels])
+    kinds = [sizes[..., turns == kind].max(axis=-1, initial=0.0) for kind in (False, True)]
+    return np.asarray(np.where(turns, kinds[1][..., None], kinds[0][..., None]))
+
+
 def damping_sizes(database: HydroDatabase) -> Array:
     """Size of the damping of each coordinate: its peak, at least 2 % of w A_inf; (nw, n).
 

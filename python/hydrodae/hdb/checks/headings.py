@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.hdb.checks.band import Band, inside
-from hydrodae.hdb.checks.phase import without_phase
+from hydrodae.hdb.checks.band import Band, inside, largest_of_kind
+from hydrodae.hdb.checks.smooth import without_phase
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.relations.headings import Headings
@@ -69,11 +69,6 @@ def _misses(db: HydroDatabase, misses: Array, order: NDArray[np.intp]) -> Array:
     """Largest miss of each force over its largest over the headings, (nw, n)."""
     smooth = without_phase(db)[:, order]
     size = np.abs(smooth).max(axis=1)
-    turning = np.array([c.endswith(("roll", "pitch", "yaw")) for c in db.coordinates])
-    largest = np.where(
-        turning,
-        size[:, turning].max(axis=1, initial=0.0)[:, None],
-        size[:, ~turning].max(axis=1, initial=0.0)[:, None],
-    )
+    largest = largest_of_kind(db, size)
     missed = np.abs(np.einsum("mh,whc->wmc", misses, smooth)).max(axis=1)
     return np.where(size > NONE * largest, missed / np.maximum(size, 1e-300), 0.0)

@@ -15,7 +15,7 @@ from hydrodae.hdb.memory.clock import SEARCH, Clock
 from hydrodae.hdb.memory.data import ImpedanceData
 from hydrodae.hdb.memory.goal import Goal, Progress, Quality, measure, quality
 from hydrodae.hdb.memory.modes import AnyArray, IntArray, Modes, Problem, refine
-from hydrodae.hdb.memory.search import MANY, VECTOR, fit_problem
+from hydrodae.hdb.memory.search import MANY, fit_problem
 from hydrodae.hdb.memory.symmetry import Block
 from hydrodae.hdb.memory.vector_fitting import Array, ComplexArray
 
@@ -229,13 +229,11 @@ def _fit_blocks(
         ):
             break
         share *= 0.9 / miss
-    largest = max(fits, key=lambda fit: fit.modes.n_states)
     return Candidate(
         modes,
         array.whole,
         found,
         all(fit.passive for fit in fits),
-        largest.method,
         any(fit.limited for fit in fits),
     )
 
@@ -246,7 +244,7 @@ def _refitted(modes: Modes, array: _Array, goal: Goal) -> Candidate | None:
     The weights of the whole, entry by entry, are others than those of the blocks.
     """
     free, _ = refine(modes, array.whole, 20, 1e-3)
-    made = made_passive(free, array.whole, goal, VECTOR, alone=True, thorough=True)
+    made = made_passive(free, array.whole, goal, alone=True, thorough=True)
     made = replace(made, quality=quality(made.modes, array.measured, goal.band))
     return made if made.passive and goal.met(made.quality) else None
 
@@ -263,7 +261,7 @@ def _fit_block(
     found = quality(none, problem, goal.band)
     if goal.met(found):
         say("too small to matter")
-        return Candidate(none, problem, found, True, VECTOR)
+        return Candidate(none, problem, found, True)
     return fit_problem(problem, goal, cap, many, say)
 
 

@@ -29,37 +29,31 @@ are not below this share of the least before."""
 class Candidate:
     """Modes of one uncoupled group or block, and the verdict on them.
 
-    `method` is how they were found; `limited`: the time limit ended their search.
+    `limited`: the time limit ended their search.
     """
 
     modes: Modes
     problem: Problem
     quality: Quality
     passive: bool
-    method: str
     limited: bool = False
 
 
-def judged(modes: Modes, problem: Problem, goal: Goal, method: str) -> Candidate:
+def judged(modes: Modes, problem: Problem, goal: Goal) -> Candidate:
     """Return modes with the verdict: errors at the stored frequencies, passive at all."""
-    return Candidate(
-        modes,
-        problem,
-        quality(modes, problem, goal.band),
-        passivity.is_passive(modes, problem),
-        method,
-    )
+    found = quality(modes, problem, goal.band)
+    return Candidate(modes, problem, found, passivity.is_passive(modes, problem))
 
 
 def made_passive(
-    modes: Modes, problem: Problem, goal: Goal, method: str, *, alone: bool, thorough: bool
+    modes: Modes, problem: Problem, goal: Goal, *, alone: bool, thorough: bool
 ) -> Candidate:
     """Make modes passive by the penalty, and by constraints where these can win.
 
     Parameters
     ----------
-    modes, method
-        Start, without constraints, and how it was found.
+    modes
+        Start, without constraints.
     problem, goal
         What is fitted, and how well.
     alone
@@ -71,12 +65,12 @@ def made_passive(
     def good(trial: Modes) -> bool:
         return goal.met(quality(trial, problem, goal.band))
 
-    pressed = judged(press(modes, problem, good), problem, goal, method)
+    pressed = judged(press(modes, problem, good), problem, goal)
     miss = goal.miss(pressed.quality)
     worth = alone or problem.size <= FEW or miss <= NEARLY
     if not (thorough and worth) or (pressed.passive and miss <= 1.0):
         return pressed
-    held = judged(passivity.enforce(modes, problem), problem, goal, method)
+    held = judged(passivity.enforce(modes, problem), problem, goal)
     return max(pressed, held, key=lambda made: (made.passive, -error(made.modes, problem)))
 
 
@@ -113,11 +107,7 @@ class Search:
     @property
     def met(self) -> bool:
         """Return whether the last candidate is passive and meets the goal."""
-        return bool(self.passive) and self.passive[-1] is self.judged[-1] and self.near()
-
-    def near(self, share: float = 1.0) -> bool:
-        """Return whether the last candidate is within `share` of the goal, passive or not."""
-        return self.goal.met(self.judged[-1].quality, share)
+        return self.judged[-1].passive and self.goal.met(self.judged[-1].quality)
 
     @property
     def done(self) -> bool:
@@ -134,14 +124,14 @@ class Search:
         """Hold the poles of the next candidates below a decay rate, over the last frequency."""
         self.problem = replace(self.problem, limits=self.problem.limits._replace(fastest=fastest))
 
-    def judge(self, modes: Modes, method: str) -> None:
+    def judge(self, modes: Modes) -> None:
         """Make a model passive, and keep it with its verdict."""
         made = made_passive(
-            modes, self.problem, self.goal, method, alone=not self.passive, thorough=not self.many
+            modes, self.problem, self.goal, alone=not self.passive, thorough=not self.many
         )
         self.judged.append(made)
         self.say(
-            f"{method}: {made.modes.n_states} states, passive: {made.passive}, "
+            f"{made.modes.n_states} states, passive: {made.passive}, "
             f"{self.goal.miss(made.quality):.2f} of the target error"
         )
 
@@ -168,22 +158,22 @@ class Search:
         near = [made for made in passive if self.goal.met(made.quality)]
         if not near:
             slow = [made for made in passive if made.problem.limits.fastest <= SEEN]
-            nearly = slow and self._least(slow) <= NEARLY * self._least(passive)
+            nearly = slow and self.least(slow) <= NEARLY * self.least(passive)
             tried = slow if nearly else passive
-            limit = (NEARLY if self.cap is None else EQUAL) * self._least(tried)
+            limit = (NEARLY if self.cap is None else EQUAL) * self.least(tried)
             near = [made for made in tried if self.goal.distance(made.quality) <= limit]
         found = min(near, key=lambda made: made.modes.n_states)
         if not self.goal.met(found.quality) and not self.many:
             found = self._polished(found)
         return replace(found, limited=limited)
 
-    def _least(self, fits: list[Candidate]) -> float:
-        """Return the least distance of these fits from the goal."""
-        return min(self.goal.distance(made.quality) for made in fits)
+    def least(self, fits: list[Candidate]) -> float:
+        """Return the least distance of these fits from the goal; infinite if there are none."""
+        return min((self.goal.distance(made.quality) for made in fits), default=np.inf)
 
     def _polished(self, found: Candidate) -> Candidate:
         """Refit passive modes with constraints, which lie nearer to the best fit than a penalty."""
         modes = passivity.enforce(found.modes, self.problem)
-        held = judged(modes, self.problem, self.goal, found.method)
+        held = judged(modes, self.problem, self.goal)
         nearer = self.goal.distance(held.quality) <= self.goal.distance(found.quality)
         return held if held.passive and nearer else found

@@ -18,10 +18,9 @@ from hydrodae.hdb.memory.blocks import SYMMETRIC, FittedGroup, fit_group, sizes
 from hydrodae.hdb.memory.candidate import Candidate
 from hydrodae.hdb.memory.clock import TIME_LIMIT, Clock
 from hydrodae.hdb.memory.data import ImpedanceData, RadiationData
-from hydrodae.hdb.memory.goal import METHODS, Goal, Progress, Quality, measure, stored_quality
+from hydrodae.hdb.memory.goal import Goal, Progress, Quality, measure, noise, stored_quality
 from hydrodae.hdb.memory.model import ExponentialMemory
 from hydrodae.hdb.memory.modes import IntArray, Searches
-from hydrodae.hdb.memory.noise import noise
 from hydrodae.hdb.memory.vector_fitting import Array
 from hydrodae.hdb.memory.verdict import PASSIVE_LIMIT, missed
 from hydrodae.support.blas import one_blas_thread
@@ -62,7 +61,6 @@ def fit_memory(
     name: str = "default",
     progress: Progress | None = None,
     uniform: float | None = None,
-    method: str = "auto",
     time_limit: float = TIME_LIMIT,
     searches: Searches | None = None,
 ) -> ExponentialMemory:
@@ -70,9 +68,8 @@ def fit_memory(
 
     What is minimised, subject to what and until when, is stated in `hydrodae.hdb.memory.search`:
     the fewest states of rank-one modes that are passive and near the tables. Candidates come from
-    vector fits of many starts, of groups of more than 12 coupled coordinates from a Hankel
-    realisation of K(t). Poles, residues and A_inf are all unknown, H(0) = 0 is a row of the fit,
-    nothing is interpolated.
+    vector fits of many starts, split into modes and pruned. Poles, residues and A_inf are all
+    unknown, H(0) = 0 is a row of the fit, nothing is interpolated.
 
     Coordinates that do not radiate into each other are fitted apart: surge and heave of a body of
     revolution, motion in and across a plane of symmetry. So are the blocks of an array whose tables
@@ -109,9 +106,6 @@ def fit_memory(
         Another goal in place of the two targets: the largest error of an entry of H in the band
         over the largest entry (scaled by the roots of the largest damping). Eigenvalues of B below
         0.12 of this share of the largest are raised to it: a coarse fit stays passive more easily.
-    method
-        "modes", "hankel", or "auto": by the number of coupled coordinates, and a realisation too
-        where no set of modes can be made passive.
     time_limit
         Seconds. The search ends there, and the best passive fit so far is returned; an error where
         there is none. A fit that needs less does not depend on the machine.
@@ -131,7 +125,7 @@ def fit_memory(
           largest, and where), data_min_eig_band and data_min_eig_band_omega (in the band);
         - dropped_inputs (no radiation: memory zero, A_inf the mean added mass in the band);
         - symmetry (groups fitted in blocks), symmetry_left_out (rms share of Z that breaks it);
-        - noise (of the tables in the band, as the weighted errors, `hydrodae.hdb.memory.noise`),
+        - noise (of the tables in the band, as the weighted errors, `hydrodae.hdb.relations.noise`),
           as_near_as_noise (the target is met, or missed by no more than noise or panels explain).
 
     Raises
@@ -151,10 +145,6 @@ def fit_memory(
         if outputs is None
         else inputs + tuple(label for label in outputs if label not in inputs)
     )
-    if method not in METHODS:
-        raise DatabaseError(f"memory fit: method {method!r}: expected auto, modes or hankel").about(
-            "option", "method"
-        )
     if uniform is not None and not uniform > 0.0:
         raise DatabaseError(f"memory fit: uniform {uniform:g}: expected a number > 0").about(
             "option", "uniform"
@@ -173,7 +163,6 @@ def fit_memory(
         target_outside,
         max_states,
         uniform,
-        METHODS[method],
     )
     groups, neglected = prepare.uncoupled_groups(data, COUPLING)
     say = progress or (lambda message: None)
@@ -341,8 +330,7 @@ def _report(
             else {"uniform": goal.uniform}
         ),
         "weights": f"|H|^-1/2, times {goal.factor:g} in the band",
-        "method": ", ".join(dict.fromkeys(fit.method for fit in fits))
-        + "; rank-one modes refitted with Re H >= 0",
+        "method": "vector fit of B + i w A; rank-one modes refitted with Re H >= 0",
         "dropped_inputs": ", ".join(labels[i] for i in np.nonzero(~data.active)[0]),
         "groups": "; ".join(", ".join(labels[i] for i in group) for group in groups),
         "neglected_coupling": neglected,

@@ -12,6 +12,7 @@ from scipy.ndimage import uniform_filter1d
 from hydrodae.hdb.memory.data import UNIFORM_FLOOR, ImpedanceData, in_band, scaled
 from hydrodae.hdb.memory.modes import Modes, Problem, residual
 from hydrodae.hdb.memory.vector_fitting import Array, ComplexArray
+from hydrodae.hdb.relations.noise import noises
 
 Progress = Callable[[str], None]
 
@@ -36,21 +37,6 @@ class Quality:
 
 
 @dataclass(frozen=True)
-class Method:
-    """Ways of fitting that may be tried."""
-
-    by_modes: bool
-    by_realisation: bool
-
-
-METHODS = {
-    "auto": Method(by_modes=True, by_realisation=True),
-    "modes": Method(by_modes=True, by_realisation=False),
-    "hankel": Method(by_modes=False, by_realisation=True),
-}
-
-
-@dataclass(frozen=True)
 class Goal:
     """What a fit must reach.
 
@@ -66,8 +52,6 @@ class Goal:
         Most states, or None.
     uniform
         If not None, the goal is another: the largest error of H in the band over its largest entry.
-    method
-        What may be tried.
     """
 
     band: tuple[float, float]
@@ -76,7 +60,6 @@ class Goal:
     target_outside: float
     max_states: int | None
     uniform: float | None = None
-    method: Method = METHODS["auto"]
 
     @property
     def floor(self) -> float:
@@ -151,3 +134,23 @@ def measure(
         problem.peak(off[inside]) / (problem.largest or problem.peak(target[inside])),
         ratio(weight, inside, mean),
     )
+
+
+def noise(problem: Problem, added_mass: Array, band: tuple[float, float]) -> float:
+    """Return the noise of Z in the band relative to H, weighted as `Quality.weighted_band` is.
+
+    It is the least of `hydrodae.hdb.relations.noise.noises`, of neighbourhoods whose middle is in
+    the band: there are fewer of them than frequencies.
+    """
+    samples = problem.samples
+    omega, value, weight = samples.omega[:-1], samples.value[:-1], samples.weight[:-1]
+    inside = in_band(omega, band)
+    size = float(np.linalg.norm((weight * (value - 1j * omega[:, None] * added_mass))[inside]))
+    found = []
+    for off in noises(omega, value):
+        half = (omega.size - len(off)) // 2
+        within, heavy = inside[half : half + len(off)], weight[half : half + len(off)]
+        if within.any() and size > 0.0:
+            share = inside.sum() / within.sum()
+            found.append(float(np.linalg.norm((heavy * off)[within]) * np.sqrt(share)) / size)
+    return min(found, default=0.0)

@@ -14,7 +14,7 @@ from four real functions per mode.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -112,9 +112,10 @@ class Modes:
         """Return the number of real states."""
         return int(2 * self.poles.size - np.count_nonzero(self.real))
 
-    def without(self, mode: int) -> Modes:
-        """Return the modes but one."""
-        keep = np.arange(self.poles.size) != mode
+    def without(self, gone: npt.NDArray[Any]) -> Modes:
+        """Return the modes but some: their numbers, or a mask (m,)."""
+        keep = np.ones(self.poles.size, bool)
+        keep[gone] = False
         return Modes(self.poles[keep], self.vectors[keep], self.sign[keep], self.added_mass)
 
 

@@ -23,9 +23,11 @@ STARTS = (
 
 
 def rich_poles(
-    problem: Problem, goal: Goal, say: Progress, most: int = 32
+    problem: Problem, goal: Goal, say: Progress, most: int = 32, *, many: bool = False
 ) -> tuple[dict[int, ComplexArray], float]:
     """Raise the number of common poles, up to `most`, until vector fits near the goal.
+
+    Of `many` coordinates one search is enough, and it begins with 12 poles.
 
     Returns
     -------
@@ -35,7 +37,9 @@ def rich_poles(
     found: dict[int, ComplexArray] = {}
     misses: list[float] = []
     after = 0
-    for count in range(4, max(5, min(most + 4, problem.samples.omega.size // 2)), 4):
+    for count in range(
+        12 if many else 4, max(13 if many else 5, min(most + 4, problem.samples.omega.size // 2)), 4
+    ):
         _, found[count] = best_poles(problem, count, found.get(count - 4))
         miss = _vector_miss(found[count], problem, goal)
         say(f"vector fit with {count} poles: {miss:.2f} of the target error")

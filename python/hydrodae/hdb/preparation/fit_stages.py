@@ -58,7 +58,6 @@ class Fit:
     states: int | None
     target: float | None
     uniform: float | None
-    method: str | None
     time_limit: float | None
     accept: Sequence[str]
     progress: Callable[[str], None] | None
@@ -95,10 +94,10 @@ def leave_out_lone(state: Fit) -> None:
 def look(state: Fit) -> None:
     """Take `tables`; add `bad` (nw,): what no smooth function follows together with the rest.
 
-    Not where a number of states or a method is asked for.
+    Not where a number of states is asked for.
     """
     state.bad = np.zeros(state.tables.omega.size, bool)
-    if state.states is not None or state.method not in (None, "auto"):
+    if state.states is not None:
         return
     state.searches = {}
     options = _given(target=state.target, uniform=state.uniform, searches=state.searches)
@@ -121,7 +120,6 @@ def search(state: Fit) -> None:
         target=state.target,
         target_outside=OUTSIDE if state.bad.any() else None,
         uniform=state.uniform,
-        method=state.method,
         time_limit=state.time_limit,
         progress=state.progress,
         searches=state.searches,

@@ -22,7 +22,6 @@ def fit(
     states: int | None = None,
     target: float | None = None,
     uniform: float | None = None,
-    method: str | None = None,
     time_limit: float | None = None,
     accept: Sequence[str] = (),
     progress: Callable[[str], None] | None = None,
@@ -59,8 +58,6 @@ def fit(
         Relative error of H in the band, weighted by |H|^-1/2 [-]; default: 4.5e-4.
     uniform : float, optional
         Target in place of that: largest error of H in the band over its largest value [-].
-    method : str, optional
-        "modes", "hankel" or "auto" (default: by the number of coordinates).
     time_limit : float, optional
         Seconds [s]; default: 300. The search ends there, and the best passive fit so far is taken;
         an error where no fit is passive by then, whatever is accepted.
@@ -103,7 +100,6 @@ def fit(
         states=states,
         target=target,
         uniform=uniform,
-        method=method,
         time_limit=time_limit,
         accept=accept,
         progress=progress,

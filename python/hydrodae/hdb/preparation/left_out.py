@@ -12,8 +12,8 @@ from scipy.ndimage import binary_dilation
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.checks.band import inside
 from hydrodae.hdb.checks.irregular import suspect_rows
-from hydrodae.hdb.checks.lone import MOST, lone_rows
 from hydrodae.hdb.checks.repair import irregular
+from hydrodae.hdb.checks.smooth import MOST, lone_rows
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.scales import scaled_damping_eigenvalues
 
@@ -64,7 +64,7 @@ def rows_left_out(
 def without_lone_rows(
     database: HydroDatabase, moving: Sequence[str], band: tuple[float, float]
 ) -> tuple[HydroDatabase, str]:
-    """Return the tables without garbled frequencies (`hydrodae.hdb.checks.lone`), and a text.
+    """Return the tables without garbled frequencies (`hydrodae.hdb.checks.smooth`), and a text.
 
     A fit would follow each by a narrow mode that rings.
 
