@@ -33,10 +33,18 @@ public:
                         Eigen::Map<const VectorX>(x + b.column, b.columns));
           continue;
         }
-      for (Index c = 0; c < b.columns; ++c, from += b.rows) {
-        const S by = S(factor) * x[b.column + c];
+      // Two columns at once read and write y half as often, and add in the same order.
+      const S* by = x + b.column;
+      Index left = b.columns;
+      for (; left >= 2; left -= 2, by += 2, from += 2 * b.rows) {
+        const S first = S(factor) * by[0], second = S(factor) * by[1];
         for (Index r = 0; r < b.rows; ++r)
-          to[r] += from[r] * by;
+          to[r] = (to[r] + from[r] * first) + from[b.rows + r] * second;
+      }
+      if (left > 0) {
+        const S last = S(factor) * *by;
+        for (Index r = 0; r < b.rows; ++r)
+          to[r] += from[r] * last;
       }
     }
   }
