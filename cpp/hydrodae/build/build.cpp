@@ -77,7 +77,7 @@ std::vector<BodyStart> body_starts(const model::Scene& scene) {
 
 } // namespace
 
-system::System build(const model::Scene& scene, bool with_excitation) {
+system::System build(const model::Scene& scene, const Sea& sea, bool with_excitation) {
   system::System s;
   s.gravity = model::water(scene).gravity;
   const std::vector<Pose> poses = initial_poses(scene);
@@ -92,17 +92,17 @@ system::System build(const model::Scene& scene, bool with_excitation) {
   add_hydro(scene, s);
   add_constraints(scene, s);
   add_attachments(scene, s);
-  add_elements(scene, s);
+  add_elements(scene, sea, s);
   add_chambers(scene, s);
   set_mode_loads(scene, s);
   note_weights(scene, s);
-  add_morison(scene, s);
-  add_hulls(scene, with_excitation, s);
+  add_morison(scene, sea, s);
+  add_hulls(scene, sea, with_excitation, s);
   for (const model::Marker& m : scene.markers)
     s.markers.push_back({m.name, body_index(scene, m.body),
                          m.point - scene.bodies[body_index(scene, m.body)].center_of_gravity,
                          m.axes == "body"});
-  add_gauges(scene, s);
+  add_gauges(scene, sea, s);
   set_coupler_offsets(s);
   system::find_mechanisms(s);
   set_scale_masses(s);
@@ -114,7 +114,7 @@ system::System build(const model::Scene& scene, bool with_excitation) {
   start_laws(s);
   if (with_excitation) {
     note_axes(scene, s);
-    add_sea(scene, s);
+    add_sea(scene, sea, s);
   }
   return s;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include "hydrodae/build/sea.h"
 #include "hydrodae/model/scene.h"
 #include "hydrodae/system/system.h"
 
@@ -6,6 +7,9 @@ namespace hydrodae::build {
 
 /// Builds the system of a checked scene: dofs, markers, constraint rows that matter, hydrodynamics,
 /// scales; the excitation of the sea is that of the start, or left out. Throws ModelError.
-system::System build(const model::Scene& scene, bool with_excitation = true);
+system::System build(const model::Scene& scene, const Sea& sea, bool with_excitation = true);
+inline system::System build(const model::Scene& scene, bool with_excitation = true) {
+  return build(scene, draw_sea(scene), with_excitation);
+}
 
 } // namespace hydrodae::build

@@ -9,6 +9,7 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/math/dense.h"
 #include "hydrodae/model/motion.h"
+#include "hydrodae/system/mass.h"
 
 namespace hydrodae::build {
 
@@ -30,7 +31,7 @@ VectorX mass_scale(const system::System& s) {
     const system::HydroData::Coordinate& k = h.coordinates[static_cast<std::size_t>(u)];
     const system::BodyData& b =
         s.bodies[static_cast<std::size_t>(h.bodies[static_cast<std::size_t>(k.hydro_body)].body)];
-    const double mass = k.component < 3 ? b.mass : b.inertia(k.component - 3, k.component - 3);
+    const double mass = system::rigid_mass(b)(k.component, k.component);
     scale[u] = std::sqrt(std::max(mass + h.added_mass(u, u), 1e-300));
   }
   return scale;

@@ -12,7 +12,6 @@
 #include "hydrodae/element/laws.h"
 #include "hydrodae/hydro/coverage.h"
 #include "hydrodae/math/rotation.h"
-#include "hydrodae/model/waves.h"
 #include "hydrodae/system/elements.h"
 #include "hydrodae/water/buoyancy.h"
 #include "hydrodae/water/hydrostatics.h"
@@ -133,18 +132,11 @@ template <class F> std::vector<std::vector<F>> alike(const std::vector<F>& force
   }
 }
 
-element::Surroundings surroundings(const model::Scene& scene) {
-  const model::Water w = model::water(scene);
-  return {
-      w.gravity, w.density,
-      sea::WaveField(model::wave_components(scene), w.depth, scene.sea.ramp, scene.sea.current)};
-}
-
 template <class F>
-std::shared_ptr<const element::Elements> make_laws([[maybe_unused]] const model::Scene& scene,
+std::shared_ptr<const element::Elements> make_laws(const element::Surroundings& around,
                                                    const std::vector<F>& forces) {
-  if constexpr (requires(const element::Surroundings& around) { F::list(forces, around); })
-    return F::list(forces, surroundings(scene));
+  if constexpr (requires { F::list(forces, around); })
+    return F::list(forces, around);
   else if constexpr (requires { F::list(forces); })
     return F::list(forces);
   else
@@ -152,7 +144,8 @@ std::shared_ptr<const element::Elements> make_laws([[maybe_unused]] const model:
 }
 
 template <class F>
-void add_list(const model::Scene& scene, const std::vector<F>& forces, system::System& s) {
+void add_list(const model::Scene& scene, const element::Surroundings& around,
+              const std::vector<F>& forces, system::System& s) {
   system::ElementList list;
   std::vector<F> completed = forces;
   for (F& force : completed) {
@@ -162,7 +155,7 @@ void add_list(const model::Scene& scene, const std::vector<F>& forces, system::S
       if (force.pressed())
         list.ports.back().bearing = force.bearing();
   }
-  list.laws = make_laws(scene, completed);
+  list.laws = make_laws(around, completed);
   s.elements.push_back(std::move(list));
   add_sticking(s);
 }
@@ -214,13 +207,15 @@ void add_buoyancy(const model::Scene& scene, system::System& s) {
 
 } // namespace
 
-void add_elements(const model::Scene& scene, system::System& s) {
+void add_elements(const model::Scene& scene, const Sea& sea, system::System& s) {
+  const model::Water water = model::water(scene);
+  const element::Surroundings around{water.gravity, water.density, sea.field};
   const auto add = [&](const auto& forces) {
     for (const auto& force : forces)
       check_given(force);
     if (!forces.empty())
       for (const auto& list : alike(forces))
-        add_list(scene, list, s);
+        add_list(scene, around, list, s);
   };
   std::apply([&](const auto&... list) { (add(list), ...); }, scene.forces);
   add_buoyancy(scene, s);

@@ -1,11 +1,10 @@
 #include <algorithm>
 
 #include "hydrodae/build/parts.h"
-#include "hydrodae/model/waves.h"
 
 namespace hydrodae::build {
 
-void add_gauges(const model::Scene& scene, system::System& s) {
+void add_gauges(const model::Scene& scene, const Sea& sea, system::System& s) {
   for (const sea::Gauge& gauge : scene.gauges) {
     system::GaugeData out;
     out.name = gauge.name;
@@ -22,8 +21,7 @@ void add_gauges(const model::Scene& scene, system::System& s) {
     s.gauges.push_back(std::move(out));
   }
   if (!scene.gauges.empty())
-    s.gauged = sea::WaveField(model::wave_components(scene), model::water(scene).depth,
-                              scene.sea.ramp, Vector3::Zero());
+    s.gauged = sea.field;
 }
 
 } // namespace hydrodae::build

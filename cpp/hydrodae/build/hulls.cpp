@@ -8,7 +8,6 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/hull/floating.h"
 #include "hydrodae/hydro/coverage.h"
-#include "hydrodae/model/waves.h"
 #include "hydrodae/water/hull_list.h"
 
 namespace hydrodae::build {
@@ -30,9 +29,9 @@ hull::Water water_of_hulls(const model::Scene& scene) {
   return {water.density, water.gravity, water.depth, stretching, scene.sea.bernoulli};
 }
 
-std::vector<hull::Wave> waves_of_hulls(const model::Scene& scene) {
+std::vector<hull::Wave> waves_of_hulls(const Sea& sea) {
   std::vector<hull::Wave> out;
-  for (const sea::Component& c : model::wave_components(scene))
+  for (const sea::Component& c : sea.all)
     if (c.amplitude != 0.0)
       out.push_back({c.omega, c.wavenumber, c.heading, c.amplitude, c.phase});
   return out;
@@ -94,7 +93,7 @@ Eigen::MatrixXcd mesh_coefficients(const model::Scene& scene, const hull::Mesh& 
   return out;
 }
 
-void add_hulls(const model::Scene& scene, bool with_waves, system::System& s) {
+void add_hulls(const model::Scene& scene, const Sea& sea, bool with_waves, system::System& s) {
   const hull::Water water = water_of_hulls(scene);
   for (const bool in_waves : {false, true}) {
     std::shared_ptr<water::HullList> list;
@@ -105,7 +104,7 @@ void add_hulls(const model::Scene& scene, bool with_waves, system::System& s) {
         continue;
       if (!list)
         list = std::make_shared<water::HullList>(
-            water, in_waves && with_waves ? waves_of_hulls(scene) : std::vector<hull::Wave>(),
+            water, in_waves && with_waves ? waves_of_hulls(sea) : std::vector<hull::Wave>(),
             scene.sea.ramp);
       list->add(body.name, body.hull, body.center_of_gravity, s.bodies[i].n_active > 0);
       note_volume(scene, body, s);

@@ -15,6 +15,7 @@
 #include "hydrodae/math/definite.h"
 #include "hydrodae/model/deformation.h"
 #include "hydrodae/model/motion.h"
+#include "hydrodae/system/mass.h"
 
 namespace hydrodae::build {
 
@@ -205,12 +206,9 @@ void check_mass(const system::System& s) {
   const auto own = [&](Index u, Index v) { // of the bodies, without the water
     const system::HydroData::Coordinate &a = h.coordinates[static_cast<std::size_t>(u)],
                                         &b = h.coordinates[static_cast<std::size_t>(v)];
-    if (a.hydro_body != b.hydro_body || (a.component < 3) != (b.component < 3))
+    if (a.hydro_body != b.hydro_body)
       return 0.0;
-    const system::BodyData& body = s.bodies[h.bodies[a.hydro_body].body];
-    return a.component >= 3             ? body.inertia(a.component - 3, b.component - 3)
-           : a.component == b.component ? body.mass
-                                        : 0.0;
+    return system::rigid_mass(s.bodies[h.bodies[a.hydro_body].body])(a.component, b.component);
   };
   const auto mass = [&](Index u, Index v) {
     return own(u, v) + 0.5 * (h.added_mass(u, v) + h.added_mass(v, u));

@@ -4,7 +4,6 @@
 #include "hydrodae/build/parts.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/model/claims.h"
-#include "hydrodae/model/waves.h"
 #include "hydrodae/water/morison_list.h"
 
 namespace hydrodae::build {
@@ -57,13 +56,11 @@ void note_inertia(const water::Morison& m, const model::Body& body, bool inside,
 
 } // namespace
 
-void add_morison(const model::Scene& scene, system::System& s) {
+void add_morison(const model::Scene& scene, const Sea& sea, system::System& s) {
   if (scene.morison.empty())
     return;
   const model::Water water = model::water(scene);
-  const std::vector<sea::Component> all = model::wave_components(scene);
-  auto list = std::make_shared<water::MorisonList>(
-      sea::WaveField(all, water.depth, scene.sea.ramp, scene.sea.current));
+  auto list = std::make_shared<water::MorisonList>(sea.field);
   std::vector<system::PortData> ports;
   Index pieces = 0;
   for (const water::Morison& m : scene.morison) {
@@ -96,11 +93,12 @@ void add_morison(const model::Scene& scene, system::System& s) {
     ports.push_back(std::move(port));
   }
   s.elements.push_back({std::move(list), std::move(ports), {}});
-  if (pieces > 0 && !all.empty())
+  if (pieces > 0 && !sea.all.empty())
     s.notes.push_back(
-        "Morison elements: every evaluation sums " + std::to_string(all.size()) +
+        "Morison elements: every evaluation sums " + std::to_string(sea.all.size()) +
         " wave components at " + std::to_string(pieces) + " points that move, about " +
-        number_text(0.015 * static_cast<double>(all.size()) * static_cast<double>(pieces)) + " us");
+        number_text(0.015 * static_cast<double>(sea.all.size()) * static_cast<double>(pieces)) +
+        " us");
 }
 
 } // namespace hydrodae::build

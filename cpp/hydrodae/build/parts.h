@@ -1,6 +1,7 @@
 #pragma once
 /// The parts of `build` that live in files of their own.
 
+#include "hydrodae/build/sea.h"
 #include "hydrodae/model/scene.h"
 #include "hydrodae/system/regime.h"
 
@@ -82,7 +83,7 @@ void add_switch(const std::string& name, system::SwitchData element, system::Sys
 void set_coupler_offsets(system::System& system);
 
 /// The forces of the case with their ports (elements.cpp).
-void add_elements(const model::Scene& scene, system::System& system);
+void add_elements(const model::Scene& scene, const Sea& sea, system::System& system);
 
 /// The reactions of joints that laws feel, once it is known which rows are kept (reactions.cpp).
 /// Throws ModelError where a joint has no single reaction that presses.
@@ -100,16 +101,16 @@ void set_hydrostatics(const model::Scene& scene, system::System& system);
 
 /// Excitation of the sea where the bodies start (sea.cpp); needs `add_hydro`. Throws
 /// ModelError.
-void add_sea(const model::Scene& scene, system::System& system);
+void add_sea(const model::Scene& scene, const Sea& sea, system::System& system);
 
 /// Gauges of the elevation, and the waves that they see (gauges.cpp); behind the markers.
-void add_gauges(const model::Scene& scene, system::System& system);
+void add_gauges(const model::Scene& scene, const Sea& sea, system::System& system);
 
 /// Bodies whose wetted surface is that of a mesh (hulls.cpp).
 /// @param with_waves else in still water
-void add_hulls(const model::Scene& scene, bool with_waves, system::System& system);
+void add_hulls(const model::Scene& scene, const Sea& sea, bool with_waves, system::System& system);
 
 /// Morison elements and the water that they feel (morison.cpp). Throws ModelError.
-void add_morison(const model::Scene& scene, system::System& system);
+void add_morison(const model::Scene& scene, const Sea& sea, system::System& system);
 
 } // namespace hydrodae::build

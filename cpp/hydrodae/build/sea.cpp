@@ -236,23 +236,32 @@ std::vector<water::Excitation::Body> wave_loads(const model::Scene& scene, const
 
 } // namespace
 
-void add_sea(const model::Scene& scene, system::System& s) {
+Sea draw_sea(const model::Scene& scene) {
+  Sea out;
+  for (const sea::Wave& wave : scene.waves) {
+    Sea::System& drawn = out.systems.emplace_back();
+    drawn.components = model::wave_components(scene, wave, &drawn.note);
+    out.all.insert(out.all.end(), drawn.components.begin(), drawn.components.end());
+  }
+  out.field = sea::WaveField(out.all, model::water(scene).depth, scene.sea.ramp, scene.sea.current);
+  return out;
+}
+
+void add_sea(const model::Scene& scene, const Sea& sea, system::System& s) {
   if (scene.waves.empty() || !scene.database)
     return; // Morison elements feel the waves by themselves
   const Sources sources(scene, s);
   const hydro::Database& db = sources.main->db;
   const system::HydroData& h = s.hydro;
   const std::vector<Meeting> bodies = meetings(scene, s);
-  std::vector<sea::Component> all;
-  for (const sea::Wave& wave : scene.waves) {
-    std::string note;
-    const std::vector<sea::Component> own = model::wave_components(scene, wave, &note);
+  const std::vector<sea::Component>& all = sea.all;
+  for (std::size_t k = 0; k < sea.systems.size(); ++k) {
+    const Sea::System& drawn = sea.systems[k];
     for (std::size_t i = 0; i < bodies.size(); ++i)
       for (const Source* source : sources.of(i))
-        check_coverage(source->db, wave, own, {bodies[i]});
-    all.insert(all.end(), own.begin(), own.end());
-    if (!note.empty())
-      s.notes.push_back(note);
+        check_coverage(source->db, scene.waves[k], drawn.components, {bodies[i]});
+    if (!drawn.note.empty())
+      s.notes.push_back(drawn.note);
   }
   if (!sources.symmetry.empty())
     s.notes.push_back("axes = \"yaw\": headings that the database lacks follow from its symmetry "
@@ -275,7 +284,7 @@ void add_sea(const model::Scene& scene, system::System& s) {
     s.notes.push_back("the phase of the waves follows the bodies: every evaluation sums " +
                       std::to_string(all.size()) + " wave components for " +
                       std::to_string(moving) + (moving == 1 ? " body" : " bodies"));
-    list->set(sea::DriftingSignals(std::move(all), std::move(functions.rows), scene.sea.ramp));
+    list->set(sea::DriftingSignals(all, std::move(functions.rows), scene.sea.ramp));
   }
   std::vector<system::PortData> ports(h.bodies.size());
   for (std::size_t i = 0; i < ports.size(); ++i) {

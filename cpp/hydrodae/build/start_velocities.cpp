@@ -6,6 +6,7 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/system/mass.h"
 
 namespace hydrodae::build {
 
@@ -108,14 +109,14 @@ SparseMatrix energy_coordinates(const system::System& s, const Constraints& cons
   constexpr double next_to_nothing = 1e-8; // of the masses that count
   Entries entries;
   for (const system::BodyData& b : s.bodies) {
+    const Matrix6 rigid = system::rigid_mass(b);
     MatrixX mass = MatrixX::Zero(b.n_active, b.n_active);
     for (int i = 0; i < b.n_active; ++i)
       for (int k = 0; k < b.n_active; ++k) {
         const int c = b.active[i], d = b.active[k];
         const double own =
             i == k ? next_to_nothing * b.scale_mass * (c < 3 ? 1.0 : b.lever * b.lever) : 0.0;
-        const double both = c >= 3 && d >= 3 ? b.inertia(c - 3, d - 3) : c == d ? b.mass : 0.0;
-        mass(i, k) = (own + both) * constraints.scale()[b.u0 - s.u0 + i] *
+        mass(i, k) = (own + rigid(c, d)) * constraints.scale()[b.u0 - s.u0 + i] *
                      constraints.scale()[b.u0 - s.u0 + k];
       }
     const MatrixX by = mass.llt().matrixU().solve(MatrixX::Identity(b.n_active, b.n_active));

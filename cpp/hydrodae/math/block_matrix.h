@@ -2,7 +2,6 @@
 /// A constant matrix as the dense blocks outside which it is zero, so that a product costs what is
 /// there.
 
-#include <algorithm>
 #include <type_traits>
 #include <vector>
 
@@ -27,22 +26,25 @@ public:
     for (const Block& b : blocks_) {
       const double* from = values_.data() + b.first;
       S* const to = y + b.row;
-      if constexpr (std::is_same_v<S, double>) {
+      if constexpr (std::is_same_v<S, double>)
         if (b.columns > 8) { // takes several columns at once
           Eigen::Map<VectorX>(to, b.rows).noalias() +=
               factor * (Eigen::Map<const MatrixX>(from, b.rows, b.columns) *
                         Eigen::Map<const VectorX>(x + b.column, b.columns));
           continue;
         }
-        for (Index c = 0; c < b.columns; ++c, from += b.rows) {
-          const double by = factor * x[b.column + c];
-          for (Index r = 0; r < b.rows; ++r)
-            to[r] += from[r] * by;
-        }
-      } else {
-        for (Index r = 0; r < b.rows; r += rows_at_once)
-          add_rows<S>(b, from + r, std::min(rows_at_once, b.rows - r), x + b.column, to + r,
-                      factor);
+      // Two columns at once read and write y half as often, and add in the same order.
+      const S* by = x + b.column;
+      Index left = b.columns;
+      for (; left >= 2; left -= 2, by += 2, from += 2 * b.rows) {
+        const S first = S(factor) * by[0], second = S(factor) * by[1];
+        for (Index r = 0; r < b.rows; ++r)
+          to[r] = (to[r] + from[r] * first) + from[b.rows + r] * second;
+      }
+      if (left > 0) {
+        const S last = S(factor) * *by;
+        for (Index r = 0; r < b.rows; ++r)
+          to[r] += from[r] * last;
       }
     }
   }
@@ -63,29 +65,6 @@ private:
     Index first = 0; ///< in `values_`, column by column
     Index end() const { return row + rows; }
   };
-  static constexpr Index rows_at_once = 4; ///< sums that are kept in registers
-
-  /// y += factor M x of `count` rows of a block, whose columns begin at `from`.
-  template <class S>
-  static void add_rows(const Block& b, const double* from, Index count, const S* x, S* y,
-                       double factor) {
-    if (count < rows_at_once) {
-      for (Index r = 0; r < count; ++r) {
-        S sum(0);
-        for (Index c = 0; c < b.columns; ++c)
-          sum += from[c * b.rows + r] * x[c];
-        y[r] += S(factor) * sum;
-      }
-      return;
-    }
-    S sum[rows_at_once] = {S(0), S(0), S(0), S(0)};
-    for (Index c = 0; c < b.columns; ++c, from += b.rows)
-      for (Index r = 0; r < rows_at_once; ++r)
-        sum[r] += from[r] * x[c];
-    for (Index r = 0; r < rows_at_once; ++r)
-      y[r] += S(factor) * sum[r];
-  }
-
   template <class Entries> void make(const Entries& entries);
   bool widen(const std::vector<Block>& next, std::size_t first);
   std::vector<Block> blocks_; ///< by columns, those of the same columns by rows

@@ -207,11 +207,12 @@ Rest settle(const model::Scene& scene, System& s) {
 
 System bare_system(const model::Scene& scene) {
   const bool rests = scene.solver.start == "equilibrium";
-  System s = build::build(scene, !rests);
+  const build::Sea sea = build::draw_sea(scene);
+  System s = build::build(scene, sea, !rests);
   if (rests) {
     settle(scene, s);
     build::note_axes(scene, s);
-    build::add_sea(scene, s);
+    build::add_sea(scene, sea, s);
   }
   return s;
 }

@@ -3,9 +3,8 @@
 /// assembly_elements.h and assembly_water.h.
 
 #include "hydrodae/math/dual.h"
-#include "hydrodae/system/jacobian.h"
+#include "hydrodae/system/mass.h"
 #include "hydrodae/system/port_gradient.h"
-#include "hydrodae/water/hydro_axes_gradient.h"
 
 namespace hydrodae::system {
 
@@ -107,12 +106,12 @@ template <class Sink> struct Assembly {
                     const Vector12& u);
   void joint_accelerations();
   void coupler_accelerations();
+  void masses();
   void body_rows();
   void add(const ElementList& list);
   void add(const HydroData& hydro);
   void hydro_body(std::size_t number, const Vector6& rate, const Vector6& momentum);
   void table_columns(std::size_t number, const water::HydroLoadGradient& load);
-  void hydro_masses();
   void hydro_pair(const HydroBody& i, const HydroBody& j, const Matrix6& L, const Matrix6& Q);
   void memory_columns(const HydroBody& i, const std::vector<int>& states, const Matrix6& L);
   void memory_rows();
@@ -139,7 +138,9 @@ template <class Sink> struct Assembly {
       coupler_accelerations();
     }
     for_each_list(s, [&](const auto& list) { add(list); });
-    body_rows();
+    masses();
+    if constexpr (whole)
+      body_rows();
   }
 };
 
@@ -316,24 +317,26 @@ template <class Sink> void Assembly<Sink>::coupler_accelerations() {
   }
 }
 
-// Rigid inertia M u' + gyroscopic moment, and the position rows q' - E(q) (u + G^T mu) - sigma p.
+/// (M + D A_inf D^T) u'.
+template <class Sink> void Assembly<Sink>::masses() {
+  mass(s, ws, [this](int i, int j, const Matrix6& block) {
+    const BodyData& b = s.bodies[i];
+    for (int k = 0; k < b.n_active; ++k)
+      acceleration_columns(b.u0 + k, j, block.row(b.active[k]));
+  });
+}
+
+// Gyroscopic moments, and the position rows q' - E(q) (u + G^T mu) - sigma p.
 template <class Sink> void Assembly<Sink>::body_rows() {
   for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i) {
     const BodyData& b = s.bodies[i];
     if (b.n_active == 0)
       continue;
     const BodyState<double>& body = state(i);
-    Matrix6 mass = Matrix6::Zero(), gyroscopic = Matrix6::Zero();
-    mass.topLeftCorner<3, 3>() = b.mass * Matrix3::Identity();
-    mass.bottomRightCorner<3, 3>() = b.inertia;
+    Matrix6 gyroscopic = Matrix6::Zero();
     gyroscopic.bottomRightCorner<3, 3>() = gyroscopic_matrix(b.inertia, body.w);
-    for (int k = 0; k < b.n_active; ++k) {
-      acceleration_columns(b.u0 + k, i, mass.row(b.active[k]));
-      if constexpr (whole)
-        velocity_columns(b.u0 + k, i, gyroscopic.row(b.active[k]));
-    }
-    if (!whole)
-      continue;
+    for (int k = 0; k < b.n_active; ++k)
+      velocity_columns(b.u0 + k, i, gyroscopic.row(b.active[k]));
     position_rows(i, [&](Index row, const RowVector6& weights) {
       sink.by_yp(row, row, 1.0);
       velocity_columns(row, i, weights);

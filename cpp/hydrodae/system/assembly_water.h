@@ -2,7 +2,7 @@
 /// Of the assembly (assembly.h): added mass and radiation.
 
 #include "hydrodae/system/assembly.h"
-#include "hydrodae/system/hydrodynamics.h"
+#include "hydrodae/system/mass.h"
 #include "hydrodae/water/hydro_axes_gradient.h"
 
 namespace hydrodae::system {
@@ -11,73 +11,38 @@ using water::HydroLoadGradient;
 using water::HydroMotionGradient;
 using water::Matrix63;
 
-/// The block of a matrix (n_moving, n_moving) between two hydrodynamic bodies, zero where a
-/// coordinate does not move.
-inline Matrix6 hydro_block(const MatrixX& matrix, const HydroBody& i, const HydroBody& j) {
-  Matrix6 block = Matrix6::Zero();
-  for (int m = 0; m < 6; ++m)
-    for (int n = 0; n < 6; ++n)
-      if (i.moving[m] >= 0 && j.moving[n] >= 0)
-        block(m, n) = matrix(i.moving[m], j.moving[n]);
-  return block;
-}
-
-/// A table at the pose of its body.
-struct TableHere {
-  water::PoseCoordinate<double> pose;
-  double rate = 0.0;           ///< s'
-  Matrix6 A, A_slope, damping; ///< A, dA/ds, B; rows and columns that do not move are zero
-};
-
-/// The rows of coordinates that move.
-inline Matrix6 moving_rows(const HydroBody& hb, Matrix6 matrix) {
-  for (int c = 0; c < 6; ++c)
-    if (hb.moving[c] < 0)
-      matrix.row(c).setZero();
-  return matrix;
-}
-
-inline TableHere table_here(const Regime& s, Workspace<double>& ws, const HydroBody& hb) {
-  const water::PoseTable& table = s.hydro.tables[static_cast<std::size_t>(hb.table)];
-  TableHere out;
-  out.pose = read_pose(s, ws, table);
-  out.rate = out.pose.rate(ws.bodies[hb.body]);
-  const double *w = ws.weights.data() + table.first_weight,
-               *slopes = ws.weight_slopes.data() + table.first_weight;
-  out.A = moving_rows(hb, water::blend(table.added_mass, w));
-  out.A_slope = moving_rows(hb, water::blend(table.added_mass, slopes));
-  out.damping = moving_rows(hb, water::blend(table.damping, w));
-  return out;
-}
-
+/// What the motion of body j loads body i with by the water; the inertia is that of `mass`.
 template <class Sink>
 void Assembly<Sink>::hydro_pair(const HydroBody& i, const HydroBody& j, const Matrix6& L,
                                 const Matrix6& Q) {
-  Matrix6 A = hydro_block(s.hydro.added_mass, i, j), by_U = Matrix6::Zero();
-  if (&i == &j && i.table >= 0) {
-    const TableHere table = table_here(s, ws.state, i);
-    A += table.A;
-    by_U = table.rate * table.A_slope + table.damping;
-  }
-  Matrix6 LA = L * A, QA = Q * A + L * by_U; // what multiplies dU' and dU
-  if (s.hydro.damped)
-    QA += L * hydro_block(s.hydro.damping, i, j);
-  if (!s.hydro.convolution.empty() && ws.state.past) {
-    LA += L * hydro_block(ws.state.past->by_U_dot, i, j);
-    QA += L * hydro_block(ws.state.past->by_U, i, j);
-  }
+  const bool follow = s.hydro.axes != HydroAxes::mean; // else U' is linear in the accelerations
+  const bool blends = &i == &j && i.table >= 0;
+  const bool convolved = !s.hydro.convolution.empty() && ws.state.past;
   const HydroMotionGradient d = hydro_motion_gradient(s.hydro.axes, j, state(j.body));
-  Matrix6 by_velocity;
-  by_velocity << LA * d.a_v + QA * d.U_v, LA * d.a_w + QA * d.U_w;
-  const Matrix6 by_acceleration = LA * d.a_acc;
-  const Matrix63 by_rotation = LA * d.a_phi + QA * d.U_phi;
+  const Matrix6 LA = L * added_mass(s, ws.state, i, j);
+  Matrix6 by_velocity = Matrix6::Zero();
+  Matrix63 by_rotation = LA * d.a_phi;
+  if (follow)
+    by_velocity << LA * d.a_v, LA * d.a_w;
+  if (follow || blends || convolved || s.hydro.damped) {
+    Matrix6 by_U = Q * hydro_block(s.hydro.added_mass, i, j);
+    if (blends) {
+      const TableHere table = table_here(s, ws.state, i);
+      by_U += Q * table.A + L * (table.rate * table.A_slope + table.damping);
+    }
+    if (s.hydro.damped)
+      by_U += L * hydro_block(s.hydro.damping, i, j);
+    if (convolved)
+      by_U += L * hydro_block(ws.state.past->by_U, i, j);
+    by_velocity.leftCols<3>() += by_U * d.U_v;
+    by_velocity.rightCols<3>() += by_U * d.U_w;
+    by_rotation += by_U * d.U_phi;
+  }
   const BodyData& b = s.bodies[i.body];
   for (int k = 0; k < b.n_active; ++k) {
-    const Index row = b.u0 + k;
     const int c = b.active[k];
-    rotation_columns(row, j.body, by_rotation.row(c));
-    velocity_columns(row, j.body, by_velocity.row(c));
-    acceleration_columns(row, j.body, by_acceleration.row(c));
+    rotation_columns(b.u0 + k, j.body, by_rotation.row(c));
+    velocity_columns(b.u0 + k, j.body, by_velocity.row(c));
   }
 }
 
@@ -199,46 +164,9 @@ template <class Sink> void Assembly<Sink>::memory_rows() {
   }
 }
 
-/// L A L^T of each pair, all that the accelerations feel of the water at once. L turns forces and
-/// moments, each by a matrix of its own; that of forces is the identity in mean axes.
-template <class Sink> void Assembly<Sink>::hydro_masses() {
-  const std::vector<HydroBody>& bodies = s.hydro.bodies;
-  const auto turns_forces = [this](const HydroBody& hb) {
-    return s.hydro.axes != HydroAxes::mean || hb.turned;
-  };
-  for (std::size_t number = 0; number < bodies.size(); ++number)
-    if (const HydroBody& hb = bodies[number]; hb.moves)
-      ws.hydro_axes[number] = hydro_axes(s.hydro.axes, hb, state(hb.body));
-  for (std::size_t number = 0; number < bodies.size(); ++number) {
-    const HydroBody& i = bodies[number];
-    if (!i.moves)
-      continue;
-    const Matrix6& L_i = ws.hydro_axes[number];
-    for (const int partner : s.hydro.links[number].partners) {
-      const auto other = static_cast<std::size_t>(partner);
-      const HydroBody& j = bodies[other];
-      const Matrix6& L_j = ws.hydro_axes[other];
-      Matrix6 mass = hydro_block(s.hydro.added_mass, i, j);
-      if (number == other && i.table >= 0)
-        mass += table_here(s, ws.state, i).A;
-      if (!s.hydro.convolution.empty() && ws.state.past)
-        mass += hydro_block(ws.state.past->by_U_dot, i, j);
-      mass.rightCols<3>() *= L_j.bottomRightCorner<3, 3>().transpose();
-      if (turns_forces(j))
-        mass.leftCols<3>() *= L_j.topLeftCorner<3, 3>().transpose();
-      mass.bottomRows<3>().applyOnTheLeft(L_i.bottomRightCorner<3, 3>());
-      if (turns_forces(i))
-        mass.topRows<3>().applyOnTheLeft(L_i.topLeftCorner<3, 3>());
-      const BodyData& b = s.bodies[i.body];
-      for (int k = 0; k < b.n_active; ++k)
-        acceleration_columns(b.u0 + k, j.body, mass.row(b.active[k]));
-    }
-  }
-}
-
 template <class Sink> void Assembly<Sink>::add(const HydroData& h) {
-  if (!whole)
-    return hydro_masses();
+  if (!whole) // what accelerations feel of the water is in `mass`
+    return;
   Workspace<double>& w = ws.state;
   hydro_loads<double>(s, w, y + h.z0);
   for (std::size_t number = 0; number < h.bodies.size(); ++number) {

@@ -5,6 +5,7 @@
 
 #include "hydrodae/core/text.h"
 #include "hydrodae/system/elements.h"
+#include "hydrodae/system/mass.h"
 #include "hydrodae/system/residual.h"
 
 namespace hydrodae::system {
@@ -55,7 +56,7 @@ double mass_along(const Regime& s, const PortData& port, int c) {
   const BodyData& b = s.bodies[static_cast<std::size_t>(port.body)];
   for (const HydroBody& hb : s.hydro.bodies)
     if (hb.body == port.body && hb.moving[c] >= 0)
-      return s.hydro.own_added_mass(hb.moving[c]) + (c < 3 ? b.mass : b.inertia(c - 3, c - 3));
+      return s.hydro.own_added_mass(hb.moving[c]) + rigid_mass(b)(c, c);
   return 0.0;
 }
 

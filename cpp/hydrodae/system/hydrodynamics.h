@@ -96,14 +96,16 @@ template <class S> const S* weighted_states(const HydroData& h, Workspace<S>& ws
   return ws.weighted.data();
 }
 
-/// A_inf U' + C z + B U into `ws.inertia_force`, A_inf U into `ws.momentum`.
+/// A_inf U' + C z + B U into `ws.inertia_force`, A_inf U into `ws.momentum`: zero in mean axes,
+/// whose loads do not ask for it.
 template <class S> void hydro_loads(const Regime& s, Workspace<S>& ws, const S* z) {
   const HydroData& h = s.hydro;
   const HydroData::Products& products = h.products;
   hydro_motion(s, ws);
   ws.momentum.setZero();
   ws.inertia_force.setZero();
-  products.added_mass.add_product(ws.U.data(), ws.momentum.data());
+  if (h.axes != HydroAxes::mean)
+    products.added_mass.add_product(ws.U.data(), ws.momentum.data());
   products.added_mass.add_product(ws.U_dot.data(), ws.inertia_force.data());
   add_tables<S>(s, ws);
   add_convolution<S>(h, ws);
@@ -118,11 +120,14 @@ void add_loads(const Regime& s, const HydroData& h, Workspace<S>& ws, const S* y
                S* residual) {
   const S* z = y + h.z0;
   hydro_loads<S>(s, ws, z);
+  Vec6<S> momentum = Vec6<S>::Zero();
   for (const HydroBody& hb : h.bodies) {
     if (!hb.moves)
       continue;
-    ws.loads[hb.body] -= hydro_load<S>(h.axes, hb, ws.bodies[hb.body],
-                                       hb.gather<S>(ws.inertia_force), hb.gather<S>(ws.momentum));
+    if (h.axes != HydroAxes::mean)
+      momentum = hb.gather<S>(ws.momentum);
+    ws.loads[hb.body] -=
+        hydro_load<S>(h.axes, hb, ws.bodies[hb.body], hb.gather<S>(ws.inertia_force), momentum);
     if (hb.table >= 0)
       ws.loads[hb.body] += ws.table_loads[static_cast<std::size_t>(hb.table)];
   }

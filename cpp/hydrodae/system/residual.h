@@ -29,10 +29,12 @@ void constraint_rows(const Regime& s, const S* y, Index lambda, Index mu, const 
 /// gradient . u' + u . (d gradient / dt): what index 1 needs, zero elsewhere. (Index 1 is for
 /// comparisons on the kernel's scalar; other scalars only pass through here.)
 template <class S, class Curvature>
-S row_acceleration(const Regime& s, const joint::Vec12<S>& gradient, const joint::Vec12<S>& u,
-                   const joint::Vec12<S>& u_dot, Curvature&& curvature) {
+S row_acceleration(const Regime& s, const Workspace<S>& ws, const JointData& j,
+                   const joint::Vec12<S>& gradient, const joint::Vec12<S>& u,
+                   Curvature&& curvature) {
   if (s.formulation != Formulation::index_1)
     return S(0);
+  const joint::Vec12<S> u_dot = joint_acceleration<S>(j, ws.bodies);
   const joint::Vec12<S> turned = curvature().template cast<S>() * u;
   return gradient.cwiseProduct(u_dot).sum() + u.cwiseProduct(turned).sum();
 }
@@ -57,13 +59,12 @@ template <class S> void add_joints(const Regime& s, Workspace<S>& ws, const S* y
   for (const JointData& j : s.joints) {
     const joint::Geometry<S> g = joint_geometry<S>(j, ws.bodies);
     const joint::Vec12<S> u = joint_velocity<S>(j, ws.bodies);
-    const joint::Vec12<S> u_dot = joint_acceleration<S>(j, ws.bodies);
     joint::Vec12<S> load = joint::Vec12<S>::Zero(), shift = joint::Vec12<S>::Zero();
     for (const RowData& row : j.rows) {
       if (!s.holds(row))
         continue;
       const joint::Row<S> value = joint::basic_row<S>(row.kind, j.A, j.B, j.parameters, g);
-      const S acceleration = row_acceleration<S>(s, value.gradient, u, u_dot, [&] {
+      const S acceleration = row_acceleration<S>(s, ws, j, value.gradient, u, [&] {
         return joint::basic_curvature(row.kind, j.A, j.B, j.parameters, geometry_values(j, ws));
       });
       constraint_rows<S>(s, y, s.lambda(row), s.mu(row), value.value,
@@ -93,11 +94,10 @@ void add_couplers(const Regime& s, Workspace<S>& ws, double t, const S* y, S* re
       value += S(term.factor) * w.value;
       const joint::Vec12<S> u = joint_velocity<S>(j, ws.bodies);
       rate += gradient.cwiseProduct(u).sum();
-      acceleration += row_acceleration<S>(
-          s, gradient, u, joint_acceleration<S>(j, ws.bodies), [&]() -> joint::Matrix12 {
-            return term.factor * joint::motion_curvature(s.motions[term.motion].motion, j.A, j.B,
-                                                         geometry_values(j, ws));
-          });
+      acceleration += row_acceleration<S>(s, ws, j, gradient, u, [&]() -> joint::Matrix12 {
+        return term.factor * joint::motion_curvature(s.motions[term.motion].motion, j.A, j.B,
+                                                     geometry_values(j, ws));
+      });
       add_to_bodies<S>(j, y[s.lambda(coupler)] * gradient, ws.loads);
       if (position)
         add_to_bodies<S>(j, y[s.mu(coupler)] * gradient, ws.shifts);

@@ -1,0 +1,23 @@
+#pragma once
+/// The sea of a scene, drawn once for all that feels it.
+
+#include "hydrodae/model/scene.h"
+#include "hydrodae/sea/kinematics.h"
+
+namespace hydrodae::build {
+
+struct Sea {
+  /// Each wave of the scene by itself.
+  struct System {
+    std::vector<sea::Component> components;
+    std::string note; ///< how they were made, in words; "" where there is nothing to say
+  };
+  std::vector<System> systems;
+  std::vector<sea::Component> all; ///< of all systems, in their order
+  sea::WaveField field;            ///< all waves and the current, in water of the scene's depth
+};
+
+/// Throws ModelError where too much of a wave lies outside the frequencies of the database.
+Sea draw_sea(const model::Scene& scene);
+
+} // namespace hydrodae::build
