@@ -6,18 +6,19 @@ Nemoh's phasors are e^{-iwt}: values are conjugated here. The files hold one tri
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
-from hydrodae.hdb.readers import wamit_tables as tables
 from hydrodae.hdb.readers.quadratic import Entries
 from hydrodae.hdb.readers.setting import Setting
-from hydrodae.hdb.readers.text import read_lines
+from hydrodae.hdb.readers.text import read_lines, read_rows
+from hydrodae.hdb.readers.wamit_tables import LOAD, PAIRS, check_parts
 
-ROW = "two frequencies, two headings, mode, modulus, phase, real and imaginary part"
+COLUMNS = replace(PAIRS, meaning=f"two frequencies, two headings, {LOAD}")
 _NAME = re.compile(r"OUT_QTF([MP])(_.*)?\.dat$", re.IGNORECASE)
 #: Words of the head of the first column, and how it gives rad/s.
 UNITS = {
@@ -58,17 +59,16 @@ def read(path: Path, setting: Setting, findings: list[Finding]) -> Entries:
             f"its head is {head.strip()[:60]!r}; expected w1[rad/s], f1[Hz] or T1[s], and "
             f"MOD(QTF)/rho/g: write it with QTFpostProc of Nemoh 3"
         ).about("format", "head", file=path, line=1)
-    rows, lines = tables.read_rows(path, 9, 9, ROW)
-    tables.check_parts(path, rows[:, 2:], lines, findings)
-    labels = [setting.label_of(m, path, n) for m, n in zip(rows[:, 4], lines, strict=True)]
+    rows = read_rows(path, COLUMNS)
+    check_parts(rows, findings)
     entries = Entries(
         path,
         "difference" if match[1].upper() == "M" else "sum",
         "pressure",
-        UNITS[unit[1].lower()](rows[:, :2]),
-        np.radians(rows[:, 2:4]),
-        labels,
-        np.asarray(setting.rho * setting.gravity * (rows[:, 7] - 1j * rows[:, 8]), dtype=complex),
-        np.array(lines),
+        UNITS[unit[1].lower()](rows.waves),
+        np.radians(rows.headings),
+        setting.labels_of(rows),
+        setting.rho * setting.gravity * rows.loads.conj(),
+        rows.lines,
     )
-    return entries.phased(np.tile(setting.wave_point, (len(lines), 1)), setting)
+    return entries.phased(np.tile(setting.wave_point, (rows.lines.size, 1)), setting)

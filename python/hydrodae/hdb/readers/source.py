@@ -104,15 +104,15 @@ class SourceData:
     added_mass: Array
     radiation_damping: Array
     heading: Array
-    froude_krylov: Complex | None
-    diffraction: Complex | None
-    excitation: Complex | None
-    reference_points: dict[str, Array | None]
     rho: float
     gravity: float
     water_depth: float
     name: str
     title: str
+    froude_krylov: Complex | None = None
+    diffraction: Complex | None = None
+    excitation: Complex | None = None
+    reference_points: dict[str, Array | None] = field(default_factory=dict)
     hydrostatics: dict[str, tuple[Hydrostatics, Array]] = field(default_factory=dict)
     added_mass_inf: Array | None = None
     files: list[Path] = field(default_factory=list)

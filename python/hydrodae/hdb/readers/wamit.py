@@ -6,7 +6,7 @@ dimensionless: A/(rho L^k), B/(rho w L^k), F/(rho g L^m), C/(rho g L^j).
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -16,20 +16,77 @@ from hydrodae.hdb.database.coordinates import unique_names
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import DOFS, bodies_of, read_labels, rigid, six_of_each
-from hydrodae.hdb.readers import wamit_tables as tables
 from hydrodae.hdb.readers.formats import Format
 from hydrodae.hdb.readers.mesh_beside import statics_of_file
+from hydrodae.hdb.readers.setting import Setting
 from hydrodae.hdb.readers.source import Scales, SourceData, Water, without_hydrostatics
-from hydrodae.hdb.readers.text import LARGEST_COUNT
-from hydrodae.hdb.readers.wamit_asked import asked_findings
-from hydrodae.hdb.readers.wamit_control import Control, beside, mesh_of, read_control
+from hydrodae.hdb.readers.text import LARGEST_COUNT, Rows, read_rows
+from hydrodae.hdb.readers.wamit_control import Control, Statics, beside, mesh_of, read_control
+from hydrodae.hdb.readers.wamit_guesses import (
+    asked_findings,
+    at_infinity,
+    first_column,
+    settled,
+    told_depth,
+)
 from hydrodae.hdb.readers.wamit_listing import is_listing, read_listing
-from hydrodae.hdb.readers.wamit_settled import at_infinity, first_column, settled
-from hydrodae.hdb.relations.depth import depth_of_bodies
+from hydrodae.hdb.readers.wamit_tables import (
+    COLUMNS,
+    check_modes,
+    check_parts,
+    tabulate,
+    to_omega,
+    unit,
+)
 from hydrodae.support.arrays import Array, Complex
 
-FORCE_ROW = "period, heading, mode, modulus, phase, real and imaginary part"
 SUFFIXES = (".1", ".2", ".3", ".3fk", ".3sc", ".hst", ".pot", ".cfg", ".mmx", ".out", ".frc")
+#: Files of each force, the better one first.
+FORCES = {"excitation": (".3", ".2"), "froude_krylov": (".3fk",), "diffraction": (".3sc",)}
+
+
+@dataclass(frozen=True)
+class Run:
+    """Files of one run as they stand there.
+
+    Attributes
+    ----------
+    stem : Path
+        Their common name.
+    control : Control
+        What the files beside the tables say.
+    radiation : Rows
+        Of `.1`, or of the listing.
+    forces : dict of Rows
+        Those of `FORCES` that are there.
+    stiffness : Rows or None
+        Of `.hst`.
+    listed : bool
+        Whether A, B and the excitation are from the listing.
+    """
+
+    stem: Path
+    control: Control
+    radiation: Rows
+    forces: dict[str, Rows]
+    stiffness: Rows | None
+    listed: bool
+
+    @property
+    def files(self) -> list[Path]:
+        """Those that were read; the listing once."""
+        of_forces = [f.path for f in self.forces.values() if f.path != self.radiation.path]
+        return [self.radiation.path, *self.control.files, *of_forces]
+
+
+@dataclass(frozen=True)
+class Motions:
+    """Modes of a run, from 1: `every` one of the tables, and those `kept`; bodies, coordinates."""
+
+    every: Array
+    kept: Array
+    names: list[str]
+    coordinates: tuple[str, ...]
 
 
 def wamit_stem(path: Path) -> Path | None:
@@ -74,189 +131,118 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
     DatabaseError
         A file is missing or wrong; the message names file and line.
     """
-    stem = wamit_stem(path)
+    stem, water = wamit_stem(path), water or Water()
     if stem is None:
         raise DatabaseError("no WAMIT output file .1 or .out beside it").about("missing", file=path)
-    control = read_control(stem)
+    run = _read_run(stem)
     findings: list[Finding] = []
-    water = water or Water()
-    if control.depth is None and water.depth is None and _holds_waves(stem):
-        water = _of_told_depth(path, control, water, findings)
-    rho, depth, gravity, length = settled(
-        stem, control, water, findings, waves=lambda: _holds_waves(stem)
-    )
-    numeric, listed = beside(stem, ".1"), beside(stem, ".out")
-    radiation = numeric or listed
-    assert radiation is not None  # that is what makes a stem
-    listing = None
-    if numeric is None:
-        listing = read_listing(radiation)
-        rows, lines, option = listing.radiation, listing.radiation_lines, 1
-        text = f"read from {radiation.name}, whose phases are whole degrees: there is no .1 file"
-        findings.append(Finding("info", "excitation", text))
-    else:
-        rows, lines = tables.read_rows(radiation, 4, 5, "period, I, J, A [, B]")
-        constants = (length, depth, gravity)
-        option = first_column(stem, control, rows, constants, lambda: _waves(stem), findings)
-    every = np.unique(rows[:, 1:3])
-    modes, names, coordinates = _modes(radiation, rows, control, stem, findings)
-    rows, lines = _of_modes(rows, lines, (1, 2), modes)
-    omega_of = tables.to_omega(radiation, rows[:, 0], option, length, depth, gravity)
-    rows[:, 0] = omega_of
-    at = np.unique(omega_of)
-    finite = np.isfinite(at) & (at > 0.0)
-    usual = np.isfinite(omega_of) & (omega_of > 0.0)
-    if np.isnan(rows[usual, 4]).any():
-        line = lines[int(np.flatnonzero(usual & np.isnan(rows[:, 4]))[0])]
-        raise DatabaseError("no damping: expected period, I, J, A, B").about(
-            "shape", file=radiation, line=line
-        )
-    known = at[finite]
-    scales = (length, depth, gravity)
-    findings += asked_findings(control.asked, radiation, known, modes, names, scales, option)
-    axes = (at, modes, modes)
-    a = np.real(tables.scatter(radiation, rows, lines, (0, 1, 2), axes, rows[:, 3]))
-    damping = np.nan_to_num(rows[:, 4])
-    b = np.real(tables.scatter(radiation, rows, lines, (0, 1, 2), axes, damping))
-    alone = tables.without_mate(rows[:, 1:3], modes)
-    if alone.any():
-        i, j = (modes[k] for k in np.argwhere(alone)[0])
-        text = (
-            f"{radiation.name} holds one half of A and B ({i:g} {j:g}, not {j:g} {i:g}): the other "
-            f"is taken from it, by reciprocity"
-        )
-        findings.append(Finding("info", "assumption", text))
-        for table in (a, b):
-            table.transpose(0, 2, 1)[:, alone] = table[:, alone]
-    omega = at[finite]
-    rotation = np.array([label.is_rotation for label in read_labels(coordinates)])
-    scale = rho * length ** (3.0 + rotation[:, None] + rotation)
-    forces: dict[str, Complex | None] = {}
-    heading = np.zeros(0)
-    files = [radiation, *control.files]
-    for key, suffixes in (
-        ("excitation", (".3", ".2")),
-        ("froude_krylov", (".3fk",)),
-        ("diffraction", (".3sc",)),
-    ):
-        file = next((f for s in suffixes if (f := beside(stem, s)) is not None), None)
-        forces[key] = None
-        printed = listing is not None and key == "excitation" and len(listing.force) > 0
-        if printed and listing is not None:
-            found = (listing.force, listing.force_lines)
-            file = radiation
-        elif file is not None:
-            found = tables.read_rows(file, 7, 7, FORCE_ROW)
-            files.append(file)
-        else:
-            continue
-        if file.suffix == ".2":
-            text = f"taken from {file.name}, by Haskind's relation: there is no .3 file"
-            findings.append(Finding("info", "excitation", text))
-        tables.check_indices(file, *found, (2,), every)
-        if not printed:
-            tables.check_parts(file, *found, findings)
-        read = _forces(file, found, modes, option, (length, depth, gravity), omega)
-        forces[key] = rho * gravity * length ** (2.0 + rotation) * read[0]
-        if heading.size and not np.array_equal(heading, read[1]):
-            raise DatabaseError("headings differ from those of the other force files").about(
-                "conflict", "headings", file=file
-            )
-        heading = read[1]
-    if control.frequencies is not None and control.frequencies != at.size:
-        text = f"{stem.name}.pot asks for {control.frequencies}, {radiation.name} holds {at.size}"
-        findings.append(Finding("warning", "frequency grid", text))
-    data = SourceData(
-        coordinates=coordinates,
-        omega=omega,
-        added_mass=scale * a[finite],
-        radiation_damping=scale * omega[:, None, None] * b[finite],
-        heading=np.radians(heading),
-        froude_krylov=forces["froude_krylov"],
-        diffraction=forces["diffraction"],
-        excitation=forces["excitation"],
-        reference_points=dict.fromkeys(names),
-        rho=rho,
-        gravity=gravity,
-        water_depth=depth,
-        name=radiation.name,
-        title=f"WAMIT {stem.name}",
-        added_mass_inf=None,
-        files=files,
-        findings=findings,
-        scales=Scales(six_of_each(names), length, option),
-    )
-    limit = at_infinity(at, a, b, findings)
-    data.added_mass_inf = None if limit is None else scale * limit
-    data.reference_points.update(zip(names, control.points, strict=False))
-    _attach_hydrostatics(data, stem, control, names, length, every)
-    if len(rigid(coordinates)) < len(coordinates):
-        name, file = names[0], beside(stem, ".hst")
-        stiffness = _stiffness(file, control, np.r_[1.0:7.0, modes[modes > 6.0]], every)
-        turns = np.isin(np.arange(len(stiffness)), (3, 4, 5))
-        units = length ** (2.0 + turns[:, None] + turns)
-        data.mode_stiffness[name] = rho * gravity * units * stiffness
+    if run.control.depth is None and water.depth is None and (run.forces or run.listed):
+        deep, _ = _tables(run, replace(water, depth=np.inf), [])
+        water = replace(water, depth=told_depth(deep, run.control, findings))
+    data, motions = _tables(run, water, findings)
+    _attach_hydrostatics(data, run, motions)
     return data
 
 
-def _of_told_depth(path: Path, control: Control, water: Water, findings: list[Finding]) -> Water:
-    """Enter the depth that damping and force of heave show, else what HydroDyn takes it for."""
-    deep = read_wamit(path, replace(water, depth=np.inf))
-    told = depth_of_bodies(
-        deep.coordinates,
-        deep.omega,
-        deep.radiation_damping,
-        deep.heading,
-        deep.excitation,
-        deep.rho,
-        deep.gravity,
+def _read_run(stem: Path) -> Run:
+    """Read all files of a run, each once."""
+    control = read_control(stem)
+    paths = {s: beside(stem, s) for s in (".1", ".out", ".2", ".3", ".3fk", ".3sc", ".hst")}
+    found = {s: path for s, path in paths.items() if path is not None}
+    files = {key: next((s for s in wanted if s in found), "") for key, wanted in FORCES.items()}
+    if ".1" in found:
+        radiation, force = read_rows(found[".1"], COLUMNS[".1"]), None
+    else:
+        radiation, force = read_listing(found[".out"])  # one of both makes a stem
+    forces = {} if force is None else {"excitation": force}
+    for key, suffix in files.items():
+        if suffix and key not in forces:
+            forces[key] = read_rows(found[suffix], COLUMNS[suffix])
+    hst = found.get(".hst")
+    stiffness = None if hst is None else read_rows(hst, COLUMNS[".hst"])
+    return Run(stem, control, radiation, forces, stiffness, ".1" not in found)
+
+
+def _tables(run: Run, water: Water, findings: list[Finding]) -> tuple[SourceData, Motions]:
+    """Coefficients in SI units of what the files of a run hold, without hydrostatics."""
+    control, name = run.control, run.radiation.path.name
+    setting = settled(
+        run.stem, control, water, findings, waves=bool(run.forces or run.listed)
+    )  # fmt: skip
+    option = control.first_column
+    if run.listed:
+        option = 1
+        text = f"read from {name}, whose phases are whole degrees: there is no .1 file"
+        findings.append(Finding("info", "excitation", text))
+    elif option is None:
+        force = run.forces.get("excitation")
+        option = first_column(run.stem.name, run.radiation, force, setting, findings)
+    setting = replace(setting, first_column=option)
+    motions = _motions(run, findings)
+    at, a, b = _radiation(run, motions, setting, findings)
+    usual = np.isfinite(at) & (at > 0.0)
+    omega, heading = at[usual], np.zeros(0)
+    turns = np.array([float(label.is_rotation) for label in read_labels(motions.coordinates)])
+    forces: dict[str, Complex] = {}
+    for key, rows in run.forces.items():
+        check_modes(rows, motions.every)
+        known = heading
+        values, heading = _forces(rows, motions, setting, omega, findings)
+        forces[key] = unit(rows.columns, setting, turns) * values
+        if known.size and not np.array_equal(known, heading):
+            raise DatabaseError("headings differ from those of the other force files").about(
+                "conflict", "headings", file=rows.path
+            )
+    if control.frequencies is not None and control.frequencies != at.size:
+        text = f"{run.stem.name}.pot asks for {control.frequencies}, {name} holds {at.size}"
+        findings.append(Finding("warning", "frequency grid", text))
+    scale = unit(run.radiation.columns, setting, turns[:, None] + turns)
+    limit = at_infinity(at, a, b, findings)
+    names = motions.names
+    data = SourceData(
+        coordinates=motions.coordinates,
+        omega=omega,
+        added_mass=scale * a[usual],
+        radiation_damping=scale * omega[:, None, None] * b[usual],
+        heading=np.radians(heading),
+        reference_points=dict.fromkeys(names) | dict(zip(names, control.points, strict=False)),
+        rho=setting.rho,
+        gravity=setting.gravity,
+        water_depth=setting.depth,
+        name=name,
+        title=f"WAMIT {run.stem.name}",
+        added_mass_inf=None if limit is None else scale * limit,
+        files=run.files,
+        findings=findings,
+        scales=Scales(six_of_each(names), setting.length, option),
+        froude_krylov=forces.get("froude_krylov"),
+        diffraction=forces.get("diffraction"),
+        excitation=forces.get("excitation"),
     )
-    likely = control.likely_depth
-    if likely is not None and (told is None or told.agrees(likely)):
-        return replace(water, depth=likely)
-    if told is None or not told.decided:
-        return water
-    said = "no file says the depth" if likely is None else f"HydroDyn takes {likely:g} m"
-    best = f"{told.depth:.4g} m" if np.isfinite(told.depth) else f"infinite (over {told.low:.3g} m)"
-    text = f"water depth {best}: with that damping and force of heave agree; {said} (--depth)"
-    findings.append(Finding("warning", "assumption", text))
-    return replace(water, depth=told.depth)
+    return data, motions
 
 
-def _holds_waves(stem: Path) -> bool:
-    """Return whether a run has forces of waves, in tables or in its listing alone."""
-    tables_of = (".2", ".3", ".3fk", ".3sc")
-    listed = beside(stem, ".1") is None
-    return listed or any(beside(stem, suffix) is not None for suffix in tables_of)
-
-
-def _waves(stem: Path) -> Array | None:
-    """Lines (m, 7) of the exciting forces of a run, or None."""
-    path = beside(stem, ".3") or beside(stem, ".2")
-    return None if path is None else tables.read_rows(path, 7, 7, FORCE_ROW)[0]
-
-
-def _modes(
-    path: Path, rows: Array, control: Control, stem: Path, findings: list[Finding]
-) -> tuple[Array, list[str], tuple[str, ...]]:
-    """Modes that are kept (from 1), names of the bodies, and coordinates."""
-    modes = np.unique(rows[:, 1:3])
-    wrong = ~((modes >= 1) & (modes <= LARGEST_COUNT) & (modes == np.round(modes)))
+def _motions(run: Run, findings: list[Finding]) -> Motions:
+    """Sort out the modes of A and B: which belong to which body, which are left out."""
+    path, control = run.radiation.path, run.control
+    every = np.unique(run.radiation.modes)
+    wrong = ~((every >= 1) & (every <= LARGEST_COUNT) & (every == np.round(every)))
     if wrong.any():
         raise DatabaseError(
-            f"{modes[wrong][0]:g} is no mode: columns 2 and 3 must be modes 1, 2, ..."
+            f"{every[wrong][0]:g} is no mode: columns 2 and 3 must be modes 1, 2, ..."
         ).about("label", "modes", file=path)
-    bodies = len(control.points) or int((modes.max() + 5) // 6)
-    extra = modes[modes > 6 * bodies]
-    flexible = bodies == 1 and beside(stem, ".hst") is not None
+    bodies = len(control.points) or int((every.max() + 5) // 6)
+    extra = every[every > 6 * bodies]
+    flexible = bodies == 1 and run.stiffness is not None
     if extra.size and flexible:
         text = f"modes {extra[0]:g} to {extra[-1]:g} are generalised: mode7 and so on"
         findings.append(Finding("info", "coordinates", text))
     elif extra.size:
         text = f"left out (not rigid): modes {', '.join(f'{m:g}' for m in extra)}"
         findings.append(Finding("warning", "coordinates", text))
-    modes = modes if flexible else modes[modes <= 6 * bodies]
-    raw = control.names or [stem.name if bodies == 1 else f"body{i + 1}" for i in range(bodies)]
+    modes = every if flexible else every[every <= 6 * bodies]
+    stem = run.stem.name
+    raw = control.names or [stem if bodies == 1 else f"body{i + 1}" for i in range(bodies)]
     names = unique_names(raw)
     lost = [name for i, name in enumerate(names) if not np.any((modes - 1) // 6 == i)]
     if lost:
@@ -265,107 +251,129 @@ def _modes(
     numbers = modes.astype(int)
     labels = [f"{names[(m - 1) // 6]}.{DOFS[(m - 1) % 6]}" for m in numbers if m <= 6 * bodies]
     labels += [f"{names[0]}.mode{m}" for m in numbers if m > 6 * bodies]
-    return modes, names, tuple(labels)
+    return Motions(every, modes, names, tuple(labels))
 
 
-def _of_modes(
-    rows: Array, lines: list[int], columns: tuple[int, ...], modes: Array
-) -> tuple[Array, list[int]]:
-    kept = np.all([np.isin(rows[:, c], modes) for c in columns], axis=0)
-    return rows[kept].copy(), [n for n, k in zip(lines, kept, strict=True) if k]
+def _of_modes(rows: Rows, modes: Array) -> Rows:
+    return rows.where(np.asarray(np.isin(rows.modes, modes).all(axis=1)))
+
+
+def _radiation(
+    run: Run, motions: Motions, setting: Setting, findings: list[Finding]
+) -> tuple[Array, Array, Array]:
+    """Frequencies, 0 and inf among them, and dimensionless A, B (nw, n, n) of the modes kept."""
+    modes, rows = motions.kept, _of_modes(run.radiation, motions.kept)
+    omega = to_omega(rows, rows.waves[:, 0], setting)
+    added, damping = rows.values.T
+    at, usual = np.unique(omega), np.isfinite(omega) & (omega > 0.0)
+    lacking = np.flatnonzero(usual & np.isnan(damping))
+    if lacking.size:
+        raise DatabaseError("no damping: expected period, I, J, A, B").about(
+            "shape", file=rows.path, line=int(rows.lines[lacking[0]])
+        )
+    known = at[np.isfinite(at) & (at > 0.0)]
+    findings += asked_findings(run.control.asked, rows, known, modes, motions.names, setting)
+    keys, axes = (omega, *rows.modes.T), (at, modes, modes)
+    a = np.real(tabulate(rows, keys, axes, added))
+    b = np.real(tabulate(rows, keys, axes, np.nan_to_num(damping)))
+    there = np.zeros((modes.size, modes.size), dtype=bool)
+    there[np.searchsorted(modes, keys[1]), np.searchsorted(modes, keys[2])] = True
+    alone = there & ~there.T
+    if alone.any():
+        i, j = (modes[k] for k in np.argwhere(alone)[0])
+        text = (
+            f"{rows.path.name} holds one half of A and B ({i:g} {j:g}, not {j:g} {i:g}): the other "
+            f"is taken from it, by reciprocity"
+        )
+        findings.append(Finding("info", "assumption", text))
+        for table in (a, b):
+            table.transpose(0, 2, 1)[:, alone] = table[:, alone]
+    return at, a, b
 
 
 def _forces(
-    path: Path,
-    found: tuple[Array, list[int]],
-    modes: Array,
-    option: int,
-    constants: tuple[float, float, float],
-    omega: Array,
+    rows: Rows, motions: Motions, setting: Setting, omega: Array, findings: list[Finding]
 ) -> tuple[Complex, Array]:
-    """Return dimensionless forces (nw, nh, n) and headings [deg] of rows and their lines."""
-    rows, lines = _of_modes(*found, (2,), modes)
-    length, depth, gravity = constants
-    rows[:, 0] = tables.to_omega(path, rows[:, 0], option, length, depth, gravity)
-    usual = np.isfinite(rows[:, 0]) & (rows[:, 0] > 0.0)
-    rows, lines = rows[usual], [n for n, k in zip(lines, usual, strict=True) if k]
-    grid, heading = np.unique(rows[:, 0]), np.unique(rows[:, 1])
+    """Return dimensionless forces (nw, nh, n) and headings [deg] of the modes kept."""
+    if rows.path.suffix == ".2":
+        text = f"taken from {rows.path.name}, by Haskind's relation: there is no .3 file"
+        findings.append(Finding("info", "excitation", text))
+    if rows.path.suffix.lower() != ".out":
+        check_parts(rows, findings)
+    rows = _of_modes(rows, motions.kept)
+    at = to_omega(rows, rows.waves[:, 0], setting)
+    usual = np.isfinite(at) & (at > 0.0)
+    rows, at = rows.where(usual), at[usual]
+    grid, heading = np.unique(at), np.unique(rows.headings)
     if grid.size != omega.size or not np.allclose(grid, omega, rtol=1e-5):
         raise DatabaseError(
             f"{grid.size} frequencies, not the {omega.size} of the .1 file: "
             f"files of different runs?"
-        ).about("conflict", "frequencies", file=path)
-    values = rows[:, 5] + 1j * rows[:, 6]
-    axes = (grid, heading, modes)
-    return np.asarray(tables.scatter(path, rows, lines, (0, 1, 2), axes, values)), heading
+        ).about("conflict", "frequencies", file=rows.path)
+    keys = (at, rows.headings[:, 0], rows.modes[:, 0])
+    return np.asarray(tabulate(rows, keys, (grid, heading, motions.kept), rows.loads)), heading
 
 
-def _attach_hydrostatics(
-    data: SourceData, stem: Path, control: Control, names: list[str], length: float, every: Array
-) -> None:
-    """Waterplane from `.hst`, whose K44 and K55 hold the weight too: - m g z_G in body axes."""
-    path = beside(stem, ".hst")
-    missing: list[str] = []
-    if path is None and len(control.stiffness) != len(names):
-        missing = names
-    else:
-        stiffness = _stiffness(path, control, np.arange(1.0, 6.0 * len(names) + 1.0), every)
-        data.files += [] if path is None else [path]
-        for i, name in enumerate(names):
-            point = data.reference_points[name]
-            statics = control.statics[i] if i < len(control.statics) else None
-            if (
-                point is None
-                or statics is None
-                or statics.volume is None
-                or statics.center_of_buoyancy is None
-                or statics.center_of_gravity is None
-            ):
-                missing.append(name)
-                continue
-            rotation = np.arange(6) >= 3
-            block = stiffness[6 * i : 6 * i + 6, 6 * i : 6 * i + 6].copy()
-            block *= length ** (2.0 + rotation[:, None] + rotation)
-            mass = statics.volume if statics.mass_over_rho is None else statics.mass_over_rho
-            block[[3, 4], [3, 4]] += mass * statics.center_of_gravity[2]
-            center = point + statics.center_of_buoyancy
-            rho_g = data.rho * data.gravity
-            hydrostatics = Hydrostatics.from_stiffness(
-                rho_g * block, point, statics.volume, center, data.rho, data.gravity
-            )
-            data.hydrostatics[name] = (hydrostatics, point)
-    rows = np.arange(1.0, 6.0 * len(names) + 1.0)
-    table = None if path is None else _stiffness(path, control, rows, every)
+def _attach_hydrostatics(data: SourceData, run: Run, motions: Motions) -> None:
+    """Waterplane from `.hst` or the listing, or from meshes; stiffness of generalised modes."""
+    control, names, rows = run.control, motions.names, run.stiffness
+    length = data.scales.length
+    table: Array | None = None
+    if rows is not None:
+        data.files.append(rows.path)
+        table = _stiffness(rows, np.arange(1.0, 6.0 * len(names) + 1.0), motions.every)
     for i, name in enumerate(names):
-        if name not in missing or name not in bodies_of(data.coordinates):
+        statics = control.statics[i] if i < len(control.statics) else Statics()
+        own = slice(6 * i, 6 * i + 6)
+        block = None if table is None else table[own, own]
+        if block is None and len(control.stiffness) == len(names):
+            block = control.stiffness[i]
+        if _attach_waterplane(data, name, statics, block) or name not in bodies_of(
+            data.coordinates
+        ):
             continue
         text = f"{name}: no complete .hst and .mmx files"
-        mesh = mesh_of(stem, name, len(names) == 1)
+        mesh = mesh_of(run.stem, name, len(names) == 1)
         if mesh is None:
             data.findings.append(without_hydrostatics(text, [name]))
             continue
         area = None if table is None else float(table[6 * i + 2, 6 * i + 2]) * length**2
         shift = data.reference_points[name] if mesh[1] else None
         statics_of_file(data, name, mesh[0], text, shift=shift, area=area or None)
+    if rows is not None and len(rigid(data.coordinates)) < len(data.coordinates):
+        modes = np.r_[1.0:7.0, motions.kept[motions.kept > 6.0]]
+        turns = np.isin(np.arange(modes.size), (3, 4, 5))
+        scale = data.rho * data.gravity * (length ** (2.0 + turns[:, None] + turns))
+        data.mode_stiffness[names[0]] = scale * _stiffness(rows, modes, motions.every)
 
 
-def _stiffness(path: Path | None, control: Control, modes: Array, every: Array) -> Array:
-    """C/(rho g) of some modes, (n, n): from `.hst`, else the blocks of `.out`."""
-    if path is None:
-        result = np.zeros((modes.size, modes.size))
-        for i, block in enumerate(control.stiffness):
-            result[6 * i : 6 * i + 6, 6 * i : 6 * i + 6] = block
-        return result
-    rows, lines = tables.read_rows(path, 3, 3, "I, J, C(I,J)")
-    known = np.union1d(modes, every)
-    used = _of_modes(rows, lines, (0, 1), modes)
-    if len(used[0]) < modes.size**2:  # a garbled index leaves a gap; whole tables may hold more
-        tables.check_indices(path, rows, lines, (0, 1), known)
-    rows, lines = used
-    flat = np.column_stack([np.zeros(len(rows)), rows])
-    axes = (np.zeros(1), modes, modes)
-    table = tables.scatter(path, flat, lines, (0, 1, 2), axes, rows[:, 2])
-    return np.asarray(np.real(table)[0])
+def _attach_waterplane(data: SourceData, name: str, statics: Statics, block: Array | None) -> bool:
+    """Add the waterplane of C/(rho g) (6, 6), if all that it needs is there.
+
+    K44 and K55 hold the weight too: - m g z_G in body axes.
+    """
+    point, volume = data.reference_points[name], statics.volume
+    buoyancy, gravity = statics.center_of_buoyancy, statics.center_of_gravity
+    if block is None or point is None or volume is None or buoyancy is None or gravity is None:
+        return False
+    turns = np.arange(6) >= 3
+    block = block * data.scales.length ** (2.0 + turns[:, None] + turns)
+    mass = volume if statics.mass_over_rho is None else statics.mass_over_rho
+    block[[3, 4], [3, 4]] += mass * gravity[2]
+    waterplane = Hydrostatics.from_stiffness(
+        data.rho * data.gravity * block, point, volume, point + buoyancy, data.rho, data.gravity
+    )
+    data.hydrostatics[name] = (waterplane, point)
+    return True
+
+
+def _stiffness(rows: Rows, modes: Array, every: Array) -> Array:
+    """C/(rho g) of some modes, (n, n), from `.hst`."""
+    used = _of_modes(rows, modes)
+    if used.lines.size < modes.size**2:  # a garbled index leaves a gap; tables may hold more modes
+        check_modes(rows, np.union1d(modes, every))
+    keys, axes = (np.zeros(used.lines.size), *used.modes.T), (np.zeros(1), modes, modes)
+    return np.asarray(np.real(tabulate(used, keys, axes, used.values[:, 0]))[0])
 
 
 FORMAT = Format(

@@ -15,15 +15,40 @@ from pathlib import Path, PureWindowsPath
 import numpy as np
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.readers.hydrodyn import hydrodyn_of
-from hydrodae.hdb.readers.text import NUMBER, read_lines, read_text, words
-from hydrodae.hdb.readers.wamit_asked import HAMS, Asked, of_hams, steps
+from hydrodae.hdb.readers.text import NUMBER, leading, number, read_lines, read_text
 from hydrodae.support.arrays import Array
 from hydrodae.support.naming import names_file
 
 _NUMBERS = re.compile(NUMBER)
 #: WAMIT prints the density 1 when it was not given one.
 LEAST_DENSITY = 100.0
+#: HAMS: 1, 2 wavenumber in deep and finite depth, 3 frequency, 4 period (5 wavelength).
+HAMS = {"1": 3, "2": 4, "3": 2, "4": 1}
+WAVELENGTH = 5
+#: An input of HydroDyn stands in one of so many folders, from that of the tables up [-], and has at
+#: most so many bytes.
+FOLDERS, LARGEST_INPUT = 3, 1_000_000
+
+
+@dataclass(frozen=True)
+class Asked:
+    """Frequencies, and motions of each body, of a control file.
+
+    Attributes
+    ----------
+    where : Path
+    values : (m,) array
+        Periods, frequencies or wavenumbers.
+    kind : int or None
+        Which of them (IPERIN); None where no file says.
+    modes : list of list of int
+        1 (surge) to 6 (yaw) of each body; none: not said.
+    """
+
+    where: Path
+    values: Array
+    kind: int | None
+    modes: list[list[int]]
 
 
 @dataclass
@@ -69,8 +94,7 @@ def read_control(stem: Path) -> Control:
     """
     control = Control()
     for suffix, reader in ((".cfg", _cfg), (".pot", _pot), (".mmx", _listing), (".out", _listing)):
-        path = beside(stem, suffix)
-        if path is not None:
+        if (path := beside(stem, suffix)) is not None:
             reader(path, control)
             control.files.append(path)
     frc, listing = beside(stem, ".frc"), beside(stem, ".mmx")
@@ -83,25 +107,11 @@ def read_control(stem: Path) -> Control:
     if control.depth is None:
         _hydrodyn(stem, control)
     if control.gravity is None or control.length is None:
-        for name in control.names or [stem.name]:
-            path = beside(stem.with_name(name), ".gdf")
-            if path is not None:
-                _gdf(path, control)
-                control.files.append(path)
-                break
+        meshes = (beside(stem.with_name(name), ".gdf") for name in control.names or [stem.name])
+        if (mesh := next((path for path in meshes if path is not None), None)) is not None:
+            _gdf(mesh, control)
+            control.files.append(mesh)
     return control
-
-
-def _hydrodyn(stem: Path, control: Control) -> None:
-    """Water, length and reference point of the input of HydroDyn that names these tables."""
-    found = hydrodyn_of(stem)
-    if found is None:
-        return
-    control.likely_depth, control.files = found.depth, [*control.files, found.path]
-    control.rho = found.rho if control.rho is None else control.rho
-    control.length = found.length if control.length is None else control.length
-    if not control.points:
-        control.points.append(np.zeros(3))
 
 
 def beside(stem: Path, suffix: str) -> Path | None:
@@ -116,60 +126,83 @@ def named(folder: Path | None, name: str) -> Path | None:
     return next((p for p in sorted(folder.iterdir()) if p.name.lower() == name.lower()), None)
 
 
+def hams_file(stem: Path, name: str) -> Path | None:
+    """An input of HAMS in the folder of the tables, above it, or in `Input` beside it."""
+    for folder in (stem.parent, *stem.parent.parents[:2]):
+        for place in (folder, named(folder, "Input")):
+            path = named(place, name)
+            if path is not None and path.is_file():
+                return path
+    return None
+
+
+def mesh_of(stem: Path, name: str, alone: bool) -> tuple[Path, bool] | None:
+    """Mesh of a body of WAMIT (`.gdf`, in body axes: True) or HAMS (`HullMesh.pnl`), or None.
+
+    One that is `alone` may have its mesh under the name of the run.
+    """
+    for file in dict.fromkeys((name, stem.name) if alone else (name,)):
+        if (path := beside(stem.with_name(file), ".gdf")) is not None:
+            return path, True
+    path = hams_file(stem, "HullMesh.pnl") if alone else None
+    return None if path is None else (path, False)
+
+
 def _numbers(text: str) -> list[float]:
     return [float(n.upper().replace("D", "E")) for n in _NUMBERS.findall(text)]
 
 
-def _leading(line: str, count: int) -> list[float]:
-    """Numbers at the start of line `count` of a file, up to the first word that is not a number."""
-    found = []
-    try:
-        separate = words(line)
-    except ValueError as error:
-        raise DatabaseError(f"{error}").about("format", line=count) from None
-    for word in separate:
-        if not re.fullmatch(NUMBER, word):
-            break
-        found.append(float(word.upper().replace("D", "E")))
-    return found
+def _deep(depth: float) -> float:
+    """Depth of files where 0 or a negative one stands for deep water."""
+    return np.inf if depth <= 0.0 else depth
+
+
+def _steps(count: int, numbers: list[float]) -> Array:
+    """Values of a list, or -count of them from a first one by steps."""
+    if count >= 0:
+        return np.array(numbers[:count])
+    if len(numbers) < 2:
+        return np.zeros(0)
+    return np.asarray(numbers[0] + numbers[1] * np.arange(-count, dtype=float))
 
 
 def _cfg(path: Path, control: Control) -> None:
+    found = {"IPEROUT": 1, "IPERIN": 1}
     for line in read_lines(path):
-        found = re.match(r"\s*IPEROUT\s*=\s*(\d+)", line, re.IGNORECASE)
-        if found:
-            control.first_column = int(found[1])
-        found = re.match(r"\s*IPERIN\s*=\s*(\d+)", line, re.IGNORECASE)
-        if found:
-            control.first_input = int(found[1])
-    control.first_column = control.first_column or 1
-    control.first_input = control.first_input or 1
+        if stated := re.match(r"\s*(IPEROUT|IPERIN)\s*=\s*(\d+)", line, re.IGNORECASE):
+            found[stated[1].upper()] = int(stated[2])
+    control.first_column, control.first_input = found["IPEROUT"] or 1, found["IPERIN"] or 1
 
 
 @names_file
 def _pot(path: Path, control: Control) -> None:
     """Read a potential control file: form 2 (with NBODY), or form 1 (one body)."""
     lines = read_lines(path)
-    values = [_leading(line, n) for n, line in enumerate(lines[1:], start=2)]
-    values.insert(0, [])  # a title
+    # the first line is a title
+    values = [[], *(leading(line, n) for n, line in enumerate(lines[1:], start=2))]
 
     def expect(row: int, count: int, what: str) -> list[float]:
         if row >= len(lines) or len(values[row]) < count:
             raise DatabaseError(f"expected {count} numbers: {what}").about("format", line=row + 1)
         return values[row][:count]
 
-    (depth,) = expect(1, 1, "HBOT")
-    control.depth = np.inf if depth <= 0.0 else depth
+    def after(row: int, count: int) -> int:
+        """Row after a list of so many numbers, or after its first one and its step."""
+        left = count if count > 0 else 2 * (count < 0)
+        while left > 0 and row < len(values):
+            left -= len(values[row])
+            row += 1
+        return row
+
+    control.depth = _deep(expect(1, 1, "HBOT")[0])
     if len(values[1]) >= 5:
         control.points.append(_point(1, values[1][1:5]))
         return
-    row = 3
-    count = int(expect(row, 1, "NPER")[0])
+    count = int(expect(3, 1, "NPER")[0])
     control.frequencies = abs(count)
-    wanted = steps(count, [x for line in values[row + 1 : row + 1 + abs(count)] for x in line])
-    row = _skip(values, row + 1, abs(count) if count > 0 else 2 * (count < 0))
-    headings = int(expect(row, 1, "NBETA")[0])
-    row = _skip(values, row + 1, abs(headings) if headings > 0 else 2 * (headings < 0))
+    wanted = _steps(count, [x for line in values[4 : 4 + abs(count)] for x in line])
+    row = after(4, count)
+    row = after(row + 1, int(expect(row, 1, "NBETA")[0]))
     bodies = int(expect(row, 1, "NBODY")[0])
     row += 1
     all_six = values[2][:1] == [1.0]  # IRAD: of all motions, whatever their MODE
@@ -188,14 +221,6 @@ def _pot(path: Path, control: Control) -> None:
     control.asked = Asked(path, wanted, control.first_input, modes)
 
 
-def _skip(values: list[list[float]], row: int, count: int) -> int:
-    """Row after the next `count` numbers."""
-    while count > 0 and row < len(values):
-        count -= len(values[row])
-        row += 1
-    return row
-
-
 def _point(row: int, xbody: list[float]) -> Array:
     if xbody[3] != 0.0:
         raise DatabaseError(
@@ -207,21 +232,10 @@ def _point(row: int, xbody: list[float]) -> Array:
 @names_file
 def _listing(path: Path, control: Control) -> None:
     """Read `.mmx` or `.out`; bodies are counted by their lines of volumes."""
-    seen = 0
-    known = bool(control.points)
+    seen, known = 0, bool(control.points)
+    suffix = path.suffix.lower()
     for count, line in enumerate(read_lines(path), start=1):
-        if line.strip().startswith("Gravity:"):
-            found = _numbers(line.split("Gravity:")[1])
-            control.gravity = found[0]
-            if len(found) > 1:
-                control.length = found[1]
-        density = re.search(rf"Water density:\s*({NUMBER})", line)
-        if density and float(density[1]) > LEAST_DENSITY:
-            control.rho = float(density[1])
-        depth = re.search(rf"Water depth:\s*(infinite|{NUMBER})", line, re.IGNORECASE)
-        if depth and control.depth is None:
-            infinite = depth[1].lower() == "infinite"
-            control.depth = np.inf if infinite else float(depth[1])
+        _water(line, control)
         place = re.search(rf"XBODY =\s*({NUMBER})\s+YBODY =\s*({NUMBER})\s+ZBODY =", line)
         if place and not known:
             found = _numbers(line)
@@ -231,19 +245,40 @@ def _listing(path: Path, control: Control) -> None:
                 )
             control.points.append(np.array(found[:3]))
         row = re.match(r"\s*C\((\d),\d\)[C(),\d]*:(.*)", line)
-        if seen and row and path.suffix.lower() == ".out":
+        if seen and row and suffix == ".out":
             _stiffness_row(control, seen, int(row[1]), _numbers(row[2]))
         if "VOLX,VOLY,VOLZ" in line:
             seen += 1
             if len(control.statics) < seen:
                 control.statics.append(Statics())
-            control.statics[seen - 1].volume = float(np.median(_after(count, line)))
+            control.statics[seen - 1].volume = float(np.median(_three(count, line)))
         elif seen and "Center of Buoyancy" in line:
-            control.statics[seen - 1].center_of_buoyancy = _after(count, line)
+            control.statics[seen - 1].center_of_buoyancy = _three(count, line)
         elif seen and "Center of Gravity" in line:
-            control.statics[seen - 1].center_of_gravity = _after(count, line)
-        elif seen and re.match(r"\s*3\s+3\s+\S+\s*$", line) and path.suffix.lower() == ".mmx":
+            control.statics[seen - 1].center_of_gravity = _three(count, line)
+        elif seen and suffix == ".mmx" and re.match(r"\s*3\s+3\s+\S+\s*$", line):
             control.statics[seen - 1].mass_over_rho = _numbers(line)[2]
+
+
+def _water(line: str, control: Control) -> None:
+    """Take gravity, length scale, density and depth from a line of a listing that holds them."""
+    if line.strip().startswith("Gravity:"):
+        control.gravity, *length = _numbers(line.split("Gravity:")[1])[:2]
+        control.length = length[0] if length else control.length
+    density = re.search(rf"Water density:\s*({NUMBER})", line)
+    if density and float(density[1]) > LEAST_DENSITY:
+        control.rho = float(density[1])
+    depth = re.search(rf"Water depth:\s*(infinite|{NUMBER})", line, re.IGNORECASE)
+    if depth and control.depth is None:
+        control.depth = np.inf if depth[1].lower() == "infinite" else float(depth[1])
+
+
+def _three(count: int, line: str) -> Array:
+    """Three numbers behind the brackets and the colon."""
+    found = _numbers(line[max(line.rfind(":"), line.rfind(")")) + 1 :])
+    if len(found) != 3:
+        raise DatabaseError(f"expected 3 numbers in {line.strip()!r}").about("format", line=count)
+    return np.array(found)
 
 
 def _stiffness_row(control: Control, body: int, row: int, values: list[float]) -> None:
@@ -263,33 +298,19 @@ def _frc(path: Path, listing: Path, control: Control) -> None:
     form = re.search(r"IALTFRC\s*=\s*(\d)", read_text(listing))
     lines = read_lines(path)
     if form and form[1] != "1" and len(lines) > 2:
-        found = _leading(lines[2], 3)
+        found = leading(lines[2], 3)
         if found and found[0] > LEAST_DENSITY:
             control.rho = found[0]
             control.files.append(path)
 
 
-def hams_file(stem: Path, name: str) -> Path | None:
-    """An input of HAMS in the folder of the tables, above it, or in `Input` beside it."""
-    for folder in (stem.parent, stem.parent.parent, stem.parent.parent.parent):
-        for place in (folder, named(folder, "Input")):
-            path = named(place, name)
-            if path is not None and path.is_file():
-                return path
-    return None
-
-
-def mesh_of(stem: Path, name: str, alone: bool) -> tuple[Path, bool] | None:
-    """Mesh of a body of WAMIT (`.gdf`, in body axes: True) or HAMS (`HullMesh.pnl`), or None.
-
-    One that is `alone` may have its mesh under the name of the run.
-    """
-    for file in dict.fromkeys((name, stem.name) if alone else (name,)):
-        path = beside(stem.with_name(file), ".gdf")
-        if path is not None:
-            return path, True
-    path = hams_file(stem, "HullMesh.pnl") if alone else None
-    return None if path is None else (path, False)
+@names_file
+def _gdf(path: Path, control: Control) -> None:
+    lines = read_lines(path)
+    found = leading(lines[1], 2) if len(lines) > 1 else []
+    if len(found) < 2:
+        raise DatabaseError("expected 2 numbers: ULEN and GRAV").about("format", line=2)
+    control.length, control.gravity = found[0], found[1]
 
 
 @names_file
@@ -299,8 +320,7 @@ def _hams(path: Path, control: Control) -> None:
     depth = re.search(rf"Waterdepth\s+({NUMBER})(?!,)", text, re.IGNORECASE)
     if depth is None:
         raise DatabaseError("no line Waterdepth with a number").about("missing", "Waterdepth")
-    (value,) = _numbers(depth[1])
-    control.depth = np.inf if value <= 0.0 else value
+    control.depth = _deep(_numbers(depth[1])[0])
     center = re.search(rf"Reference_body_center((?:\s+{NUMBER}){{3}})", text)
     if center and not control.points:
         control.points.append(np.array(_numbers(center[1])))
@@ -314,21 +334,68 @@ def _hams(path: Path, control: Control) -> None:
                 "format", "Output_frequency_type"
             )
         control.first_column = HAMS[kind[1]]
-    control.asked = of_hams(path, text)
+    control.asked = _asked_of_hams(path, text)
 
 
-def _after(count: int, line: str) -> Array:
-    """Three numbers behind the brackets and the colon."""
-    found = _numbers(line[max(line.rfind(":"), line.rfind(")")) + 1 :])
-    if len(found) != 3:
-        raise DatabaseError(f"expected 3 numbers in {line.strip()!r}").about("format", line=count)
-    return np.array(found)
+def _asked_of_hams(path: Path, text: str) -> Asked | None:
+    """Frequencies and motions that a ControlFile.in of HAMS asks for; it computes all six."""
+    kind = re.search(r"Input_frequency_type\s+(\d)", text)
+    count = re.search(rf"Number_of_frequencies\s+({NUMBER})(.*)", text)
+    if kind is None or count is None or int(kind[1]) not in (*HAMS.values(), WAVELENGTH):
+        return None
+    wanted = int(number(count[1]))
+    if wanted < 0:
+        first = re.search(rf"Minimum_frequency_Wmin\s+({NUMBER})", text)
+        step = re.search(rf"Frequency_step\s+({NUMBER})", text)
+        if first is None or step is None:
+            return None
+        values = _steps(wanted, [number(first[1]), number(step[1])])
+    else:
+        lines = text[count.end() :].splitlines()
+        row = next((line.split("!")[0] for line in lines if line.strip()), "")
+        values = np.array([number(word) for word in re.findall(NUMBER, row)])
+    return Asked(path, values, HAMS.get(kind[1], WAVELENGTH), [list(range(1, 7))])
 
 
-@names_file
-def _gdf(path: Path, control: Control) -> None:
-    lines = read_lines(path)
-    found = _leading(lines[1], 2) if len(lines) > 1 else []
-    if len(found) < 2:
-        raise DatabaseError("expected 2 numbers: ULEN and GRAV").about("format", line=2)
-    control.length, control.gravity = found[0], found[1]
+def _hydrodyn(stem: Path, control: Control) -> None:
+    """Water, length and reference point of the input of HydroDyn whose `PotFile` are these tables.
+
+    It stands in their folder or above; several that differ say nothing. Lines are `value KEY - what
+    it means`; DEFAULT stands where another input says it. Moments are about the origin.
+    """
+    for folder in (stem.parent, *stem.parent.parents[: FOLDERS - 1]):
+        found = {p: h for p in sorted(folder.glob("*.dat")) if (h := _potfile(p, stem)) is not None}
+        if found:
+            break
+    if len(set(found.values())) != 1:
+        return
+    control.files.append(next(iter(found)))
+    rho, control.likely_depth, length = next(iter(found.values()))
+    control.rho = rho if control.rho is None else control.rho
+    control.length = length if control.length is None else control.length
+    if not control.points:
+        control.points.append(np.zeros(3))
+
+
+def _potfile(path: Path, stem: Path) -> tuple[float | None, ...] | None:
+    """Density, depth and length of an input of HydroDyn that names one body, these tables."""
+    if not path.is_file() or path.stat().st_size > LARGEST_INPUT:
+        return None
+    text = read_text(path)
+    line = re.search(r"^(.*?)\s+PotFile\b", text, re.MULTILINE)
+    if line is None:
+        return None
+    files = re.findall(r'"([^"]*)"', line[1]) or [line[1].strip()]
+    target = PureWindowsPath(files[0])
+    above = target.parent.name.lower()
+    if len(files) != 1 or target.name.lower() != stem.name.lower():
+        return None
+    if above not in ("", stem.parent.name.lower()):
+        return None
+
+    def value(key: str) -> float | None:
+        found = re.search(rf"^\s*({NUMBER})\s+{key}\b", text, re.MULTILINE | re.IGNORECASE)
+        return None if found is None else number(found[1])
+
+    depth = value("WtrDpth")
+    return value("WtrDens"), None if depth is None else _deep(depth), value("WAMITULEN")

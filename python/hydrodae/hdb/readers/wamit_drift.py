@@ -12,13 +12,14 @@ import numpy as np
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
-from hydrodae.hdb.database.second_order import KINDS, OF_ALL_BODIES
+from hydrodae.hdb.database.second_order import OF_ALL_BODIES
 from hydrodae.hdb.labels import read_labels
-from hydrodae.hdb.readers import wamit_tables as tables
 from hydrodae.hdb.readers.quadratic import Entries
 from hydrodae.hdb.readers.setting import Setting
+from hydrodae.hdb.readers.text import read_rows
 from hydrodae.hdb.readers.wamit import wamit_stem
 from hydrodae.hdb.readers.wamit_control import beside, read_control
+from hydrodae.hdb.readers.wamit_tables import COLUMNS, check_parts, to_omega, unit
 
 #: Kind and method of each file, the better ones first: pressures need finer meshes than the far
 #: field or a control surface, and `.10` lacks the potential of second order.
@@ -32,11 +33,6 @@ SUFFIXES = {
     ".12s": ("sum", "direct"),
     ".11s": ("sum", "indirect"),
     ".10s": ("sum", "quadratic part"),
-}
-#: What a line holds, by its number of periods.
-ROWS = {
-    1: "period, two headings, mode, modulus, phase, real and imaginary part",
-    2: "two periods, two headings, mode, modulus, phase, real and imaginary part",
 }
 
 
@@ -63,43 +59,30 @@ def read(path: Path, setting: Setting, findings: list[Finding]) -> Entries | Non
         text = f"{path.name} is the sum over {len(setting.bodies)} bodies: not read"
         findings.append(Finding("info", "second order", text))
         return None
-    waves = KINDS[kind].axes
-    count, meaning = 7 + waves, ROWS[waves]
-    rows, lines = tables.read_rows(path, count, count, meaning)
-    kept = rows[:, waves + 2] > 0.0  # negative modes: the same loads in other axes
+    rows = read_rows(path, COLUMNS[path.suffix.lower()])
+    kept = rows.modes[:, 0] > 0.0  # negative modes: the same loads in other axes
     if not kept.all():
         text = f"{path.name}: {(~kept).sum()} lines of negative modes, in other axes: left out"
         findings.append(Finding("info", "second order", text))
-    omega = np.column_stack(
-        [
-            tables.to_omega(
-                path, rows[:, i], setting.first_column, setting.length, setting.depth,
-                setting.gravity,
-            )
-            for i in range(waves)
-        ]
-    )  # fmt: skip
+    omega = np.column_stack([to_omega(rows, first, setting) for first in rows.waves.T])
     kept &= np.all(np.isfinite(omega) & (omega > 0.0), axis=1)
-    rows, omega = rows[kept], omega[kept]
-    lines = [line for line, keep in zip(lines, kept, strict=True) if keep]
-    if not lines:
-        raise DatabaseError(f"no line with a mode and frequencies > 0; expected {meaning}").about(
-            "missing", "numbers", file=path
-        )
-    tables.check_parts(path, rows[:, count - 7 :], lines, findings)
-    modes = zip(rows[:, waves + 2], lines, strict=True)
-    labels = [setting.label_of(mode, path, line) for mode, line in modes]
+    rows, omega = rows.where(kept), omega[kept]
+    if not rows.lines.size:
+        raise DatabaseError(
+            f"no line with a mode and frequencies > 0; expected {rows.columns.meaning}"
+        ).about("missing", "numbers", file=path)
+    check_parts(rows, findings)
+    labels = setting.labels_of(rows)
     turns = np.array([label.is_rotation for label in read_labels(labels)])
-    scale = setting.rho * setting.gravity * setting.length ** (1.0 + turns)
     return Entries(
         path,
         kind,
         method,
         np.column_stack([omega[:, 0], omega[:, -1]]),
-        np.radians(rows[:, waves : waves + 2]),
+        np.radians(rows.headings),
         labels,
-        np.asarray(scale * (rows[:, -2] + 1j * rows[:, -1]), dtype=complex),
-        np.array(lines),
+        unit(rows.columns, setting, turns) * rows.loads,
+        rows.lines,
     )
 
 

@@ -7,53 +7,25 @@ degrees, so that forces are known to half a degree (1 % of the modulus across th
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.readers.text import NUMBER, number, read_lines
-from hydrodae.support.arrays import Array
+from hydrodae.hdb.readers.text import NUMBER, Columns, Rows, number, numbers, read_lines
+from hydrodae.hdb.readers.wamit_tables import COLUMNS
 from hydrodae.support.naming import names_file
 
 #: Of the list of periods that POTEN has solved, with the time of day.
 _SOLVED = re.compile(r"\s*(-?\d+\.\d+)\s+\d\d:\d\d:\d\d\b")
 _PERIOD = re.compile(rf"Wave period(?: \(sec\))?\s*=\s*(infinite|zero|{NUMBER})", re.IGNORECASE)
 _HEADING = re.compile(rf"Wave Heading \(deg\)\s*:\s*({NUMBER})", re.IGNORECASE)
-#: Titles of tables of forces, best first: by pressure (.3), by Haskind's relation (.2).
+_EITHER = re.compile(r"Wave (period|heading)[^=:]*[=:]\s*\S", re.IGNORECASE)
+#: Periods of the words that stand for w = 0 and w = inf.
+_LIMITS = {"infinite": -1.0, "zero": 0.0}
+#: Titles of tables; those of forces, best first: by pressure (.3), by Haskind's relation (.2).
+_RADIATION = "ADDED-MASS"
 _FORCES = ("DIFFRACTION EXCITING FORCES", "HASKIND EXCITING FORCES")
-
-
-@dataclass
-class Listing:
-    """Rows as in the numeric files.
-
-    Attributes
-    ----------
-    radiation : (m, 5) array
-        Period [s] (0 for w = inf, -1 for w = 0), I, J, A, B (NaN where there is none).
-    radiation_lines : list of int
-        Line number of each row.
-    force : (m, 7) array
-        Period, heading [deg], I, modulus, phase [deg], real and imaginary part.
-    force_lines : list of int
-    """
-
-    radiation: Array
-    radiation_lines: list[int]
-    force: Array
-    force_lines: list[int]
-
-
-@dataclass
-class _Rows:
-    values: list[list[float]] = field(default_factory=list)
-    lines: list[int] = field(default_factory=list)
-
-    def add(self, line: int, values: list[float]) -> None:
-        self.values.append(values)
-        self.lines.append(line)
 
 
 def is_listing(path: Path) -> bool:
@@ -65,8 +37,13 @@ def is_listing(path: Path) -> bool:
 
 
 @names_file
-def read_listing(path: Path) -> Listing:
-    """Read the tables of added mass, damping and exciting forces.
+def read_listing(path: Path) -> tuple[Rows, Rows | None]:
+    """Read the tables of added mass and damping, and of exciting forces (None without).
+
+    Returns
+    -------
+    radiation, force : Rows
+        As of `.1` and `.3`: periods [s], 0 for w = inf, -1 for w = 0; NaN where there is no B.
 
     Raises
     ------
@@ -74,46 +51,30 @@ def read_listing(path: Path) -> Listing:
         No such tables, fewer periods than were solved, or a line is not of that form; the message
         names file and line.
     """
-    radiation, forces = _Rows(), {title: _Rows() for title in _FORCES}
+    found: dict[str, list[list[float]]] = {title: [] for title in (_RADIATION, *_FORCES)}
     period, heading, table = np.nan, np.nan, ""
-    solved: set[str] = set()
-    told: set[str] = set()
+    solved, told = set[str](), set[str]()
     for count, line in enumerate(read_lines(path), start=1):
-        found = _PERIOD.search(line)
-        if found:
-            word = found[1].lower()
+        if stated := _PERIOD.search(line):
+            word = stated[1].lower()
             told.add(word)
-            period = {"infinite": -1.0, "zero": 0.0}.get(word) or 0.0
-            if word not in ("infinite", "zero"):
-                period = number(word)
+            period = _LIMITS[word] if word in _LIMITS else number(word)
             table = ""
-        elif re.search(r"Wave (period|heading)[^=:]*[=:]\s*\S", line, re.IGNORECASE) and not (
-            _HEADING.search(line)
-        ):
+        elif _EITHER.search(line) and not _HEADING.search(line):
             raise DatabaseError(f"not a number: {line.strip()[:60]!r}").about("format", line=count)
         elif not told and (row_of := _SOLVED.match(line)):
             solved.add(row_of[1])
-        elif "ADDED-MASS" in line:
-            table = "radiation"
-        elif any(title in line for title in _FORCES):
-            table = next(title for title in _FORCES if title in line)
+        elif title := next((title for title in found if title in line), ""):
+            table = title
         elif stated := _HEADING.search(line):
             heading = float(stated[1])
         elif re.match(r"\s+[A-Z]{4,}", line):
             table = ""  # a table of something else: responses, drift forces
         elif table and re.match(r"\s*\d+\s", line):
-            values = _values(count, line)
-            if table == "radiation":
-                row = [period, *values, np.nan][:5] if len(values) == 3 else [period, *values]
-                radiation.add(count, _of_length(count, row, 5, "I, J, A [, B]"))
-            else:
-                _of_length(count, values, 3, "I, modulus, phase")
-                i, modulus, phase = values[0], values[1], values[2]
-                turn = np.radians(phase)
-                row = [period, heading, abs(i), modulus, phase]
-                row += [modulus * np.cos(turn), modulus * np.sin(turn)]
-                forces[table].add(count, row)
-    if not radiation.values:
+            radiates = table == _RADIATION
+            row = _radiation(count, line) if radiates else _force(count, line, heading)
+            found[table].append([count, period, *row])
+    if not found[_RADIATION]:
         raise DatabaseError(
             "no tables of added mass in it: run WAMIT again with IOPTN(1) = 1 in its .frc"
         ).about("missing", "added_mass")
@@ -122,32 +83,35 @@ def read_listing(path: Path) -> Listing:
             f"{len(solved)} periods were solved, results of {len(told)} follow: the file "
             f"is cut short"
         ).about("cut_short")
-    best = next((forces[title] for title in _FORCES if forces[title].values), _Rows())
-    force = np.array(best.values) if best.values else np.zeros((0, 7))
-    return Listing(
-        *_once(np.array(radiation.values), radiation.lines, 3), *_once(force, best.lines, 3)
-    )
+    best = next((found[title] for title in _FORCES if found[title]), None)
+    radiation = _once(path, COLUMNS[".1"], found[_RADIATION])
+    return radiation, None if best is None else _once(path, COLUMNS[".3"], best)
 
 
-def _once(rows: Array, lines: list[int], key: int) -> tuple[Array, list[int]]:
-    """Drop rows that repeat an entry: a run that was restarted prints a period twice."""
-    if not len(rows):
-        return rows, lines
-    _, first = np.unique(rows[:, :key], axis=0, return_index=True)
-    first = np.sort(first)
-    return rows[first], [lines[i] for i in first]
+def _radiation(count: int, line: str) -> list[float]:
+    """I, J, A, B of a line."""
+    values = numbers(line, count)
+    values += [np.nan] if len(values) == 3 else []
+    if len(values) != 4:
+        raise DatabaseError("expected I, J, A [, B]").about("format", line=count)
+    return values
 
 
-def _values(count: int, line: str) -> list[float]:
-    try:
-        return [number(word) for word in line.split()]
-    except ValueError:
-        raise DatabaseError(f"not numbers: {line.strip()[:60]!r}").about(
-            "format", line=count
-        ) from None
+def _force(count: int, line: str, heading: float) -> list[float]:
+    """Heading, mode, modulus, phase, real and imaginary part of a line."""
+    values = numbers(line, count)
+    if len(values) != 3:
+        raise DatabaseError("expected I, modulus, phase").about("format", line=count)
+    i, modulus, phase = values
+    turn = np.radians(phase)
+    parts = [modulus * np.cos(turn), modulus * np.sin(turn)]
+    return [heading, abs(i), modulus, phase, *parts]
 
 
-def _of_length(count: int, row: list[float], size: int, what: str) -> list[float]:
-    if len(row) != size:
-        raise DatabaseError(f"expected {what}").about("format", line=count)
-    return row
+def _once(path: Path, columns: Columns, found: list[list[float]]) -> Rows:
+    """Rows without those that repeat an entry: a run that was restarted prints a period twice."""
+    table = np.array(found)
+    keys = columns.waves + columns.headings + columns.modes
+    _, first = np.unique(table[:, 1 : 1 + keys], axis=0, return_index=True)
+    table = table[np.sort(first)]
+    return Rows(path, columns, table[:, 1:], table[:, 0].astype(int))

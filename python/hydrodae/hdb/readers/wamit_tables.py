@@ -1,4 +1,4 @@
-"""Numeric output files of WAMIT: `.1`, `.2`, `.3`, `.3fk`, `.3sc`, `.hst`.
+"""Numeric files of WAMIT: the columns of each, and what their keys and values mean.
 
 Every line holds numbers only, but for one title line that the option NUMHDR writes first. The first
 column of all but `.hst` is the period, or a frequency or wavenumber (option IPEROUT); zero and
@@ -7,186 +7,113 @@ negative values there stand for w = inf and w = 0, or the other way round.
 
 from __future__ import annotations
 
-import math
-from pathlib import Path
-
 import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
-from hydrodae.hdb.readers.text import number, read_lines
+from hydrodae.hdb.readers.setting import Setting
+from hydrodae.hdb.readers.text import Columns, Rows
 from hydrodae.hdb.relations.dispersion import frequency
 from hydrodae.support.arrays import Array
-from hydrodae.support.naming import names_file
+
+LOAD = "mode, modulus, phase, real and imaginary part"
+FORCE = Columns(f"period, heading, {LOAD}", 1, 1, 1, 4, length=2.0)
+DRIFT = Columns(f"period, two headings, {LOAD}", 1, 2, 1, 4, length=1.0)
+PAIRS = Columns(f"two periods, two headings, {LOAD}", 2, 2, 1, 4, length=1.0)
+#: What a line holds, by the suffix of the file.
+COLUMNS = {
+    ".1": Columns("period, I, J, A [, B]", 1, 0, 2, 2, 1, length=3.0, weight=False),
+    **dict.fromkeys((".2", ".3", ".3fk", ".3sc"), FORCE),
+    ".hst": Columns("I, J, C(I,J)", 0, 0, 2, 1, length=2.0),
+    **dict.fromkeys((".7", ".8", ".9"), DRIFT),
+    **dict.fromkeys((".10d", ".11d", ".12d", ".10s", ".11s", ".12s"), PAIRS),
+}
+#: What the first column may hold, by IPEROUT: w^2/g L in deep water and k L in the given depth.
+FIRST = {1: "period", 2: "frequency", 3: "wavenumber of deep water", 4: "wavenumber"}
 
 
-@names_file
-def read_rows(path: Path, least: int, most: int, meaning: str) -> tuple[Array, list[int]]:
-    """Read the lines of a file.
-
-    Parameters
-    ----------
-    path : Path
-    least, most : int
-        Numbers that a line may hold.
-    meaning : str
-        What they are, for the error message.
-
-    Returns
-    -------
-    rows : (lines, most) array
-        Missing numbers at the end of a line are NaN.
-    lines : list of int
-        Line number of each row, from 1.
-
-    Raises
-    ------
-    DatabaseError
-        A line other than the first is not of that form, or there is none.
-    """
-    rows, lines = [], []
-    for count, line in enumerate(read_lines(path), start=1):
-        words = line.split()
-        if not words:
-            continue
-        try:
-            values = [number(w) for w in words]
-        except ValueError:
-            if count == 1:
-                continue  # the title line
-            raise DatabaseError(f"not numbers: {line.strip()[:60]!r}; expected {meaning}").about(
-                "format", line=count
-            ) from None
-        if not all(map(math.isfinite, values[:2])):  # period or mode; tables may hold NaN
-            raise DatabaseError(f"{' '.join(words[:2])}: expected {meaning}").about(
-                "format", line=count
-            )
-        if not least <= len(values) <= most:
-            wanted = f"{least}" if least == most else f"{least} or {most}"
-            raise DatabaseError(f"{len(values)} numbers, expected {wanted}: {meaning}").about(
-                "shape", line=count
-            )
-        rows.append(values + [np.nan] * (most - len(values)))
-        lines.append(count)
-    if not rows:
-        raise DatabaseError(f"no numbers in it; expected lines of {meaning}").about(
-            "missing", "numbers"
-        )
-    return np.array(rows), lines
-
-
-def to_omega(
-    path: Path, first: Array, option: int, length: float, depth: float, gravity: float
-) -> Array:
-    """Turn the first column into frequencies.
+def to_omega(rows: Rows, first: Array, setting: Setting) -> Array:
+    """Turn what stands in the first column of a file (m,) into frequencies [rad/s].
 
     Parameters
     ----------
-    path : Path
-        For the error message.
+    rows : Rows
+        The file, for the error message.
     first : (m,) array
-        The column.
-    option : int
-        IPEROUT: 1 period [s], 2 frequency [rad/s], 3 wavenumber K L = w^2 L/g in deep water,
-        4 wavenumber times L in the given depth.
-    length, depth, gravity : float
-        L = ULEN [m], [m], [m/s2].
-
-    Returns
-    -------
-    (m,) array
-        [rad/s]; w = 0 and w = inf as such.
+    setting : Setting
+        What the column holds, the length scale and the water.
 
     Raises
     ------
     DatabaseError
-        Another option.
+        Another option than those of `FIRST`.
     """
-    omega = np.empty_like(first)
-    usual = first > 0.0
+    option, omega, usual = setting.first_column, np.empty_like(first), first > 0.0
+    if option not in FIRST:
+        raise DatabaseError(f"IPEROUT = {option} in the .cfg beside it: expected 1 to 4").about(
+            "format", "IPEROUT", file=rows.path
+        )
     if option == 1:
         omega[usual] = 2.0 * np.pi / first[usual]
         omega[~usual] = np.where(first[~usual] == 0.0, np.inf, 0.0)
         return omega
-    if option == 2:
-        omega[usual] = first[usual]
-    elif option in (3, 4):
-        omega[usual] = frequency(first[usual] / length, depth if option == 4 else np.inf, gravity)
-    else:
-        raise DatabaseError(f"IPEROUT = {option} in the .cfg beside it: expected 1 to 4").about(
-            "format", "IPEROUT", file=path
-        )
+    omega[usual] = first[usual]
+    if option > 2:
+        depth = setting.depth if option == 4 else np.inf
+        omega[usual] = frequency(first[usual] / setting.length, depth, setting.gravity)
     omega[~usual] = np.where(first[~usual] == 0.0, 0.0, np.inf)
     return omega
 
 
-def check_indices(
-    path: Path, rows: Array, lines: list[int], columns: tuple[int, ...], known: Array
-) -> None:
+def unit(columns: Columns, setting: Setting, turns: Array) -> Array:
+    """Unit of values of modes of which so many are rotations."""
+    weight = setting.rho * setting.gravity if columns.weight else setting.rho
+    return np.asarray(weight * setting.length ** (columns.length + turns))
+
+
+def check_modes(rows: Rows, known: Array) -> None:
     """Refuse modes that the run does not have: another column, or a garbled number."""
-    for column in columns:
-        wrong = np.flatnonzero(~np.isin(rows[:, column], known))
+    for i, column in enumerate(rows.modes.T):
+        wrong = np.flatnonzero(~np.isin(column, known))
         if wrong.size:
+            place = rows.columns.waves + rows.columns.headings + i + 1
             raise DatabaseError(
-                f"{rows[wrong[0], column]:g} in column {column + 1} is "
-                f"no mode of the run (1 to {known.max():g})"
-            ).about("label", "modes", file=path, line=lines[wrong[0]])
+                f"{column[wrong[0]]:g} in column {place} is no mode of the run "
+                f"(1 to {known.max():g})"
+            ).about("label", "modes", file=rows.path, line=int(rows.lines[wrong[0]]))
 
 
-def check_parts(path: Path, rows: Array, lines: list[int], findings: list[Finding]) -> None:
-    """Hold modulus and phase of forces (m, 7) against their real and imaginary parts.
+def check_parts(rows: Rows, findings: list[Finding]) -> None:
+    """Hold modulus and phase of forces against their real and imaginary parts.
 
     Raises
     ------
     DatabaseError
         A modulus is another; the message names the line.
     """
-    modulus, phase, parts = rows[:, 3], np.radians(rows[:, 4]), rows[:, 5] + 1j * rows[:, 6]
+    modulus, degrees, real, imaginary = rows.values.T
+    phase, parts = np.radians(degrees), rows.loads
     least = 1e-5 * float(np.nanmax(np.abs(parts), initial=0.0))
     wrong = np.flatnonzero(np.abs(np.abs(parts) - modulus) > 5e-3 * np.abs(parts) + least)
     if wrong.size:
         at = wrong[0]
         raise DatabaseError(
             f"the modulus {modulus[at]:g} is not that of the real and imaginary part "
-            f"{rows[at, 5]:g} {rows[at, 6]:g}: columns in another order, or a garbled number"
-        ).about("conflict", "modulus", file=path, line=lines[at])
+            f"{real[at]:g} {imaginary[at]:g}: columns in another order, or a garbled number"
+        ).about("conflict", "modulus", file=rows.path, line=int(rows.lines[at]))
     turned = np.abs(modulus * np.exp(1j * phase) - parts) > 0.02 * np.abs(parts) + least
     if turned.any():
         at = int(np.flatnonzero(turned)[0])
         text = (
-            f"{path.name}:{lines[at]}: phase {rows[at, 4]:g} deg is not that of the real and "
-            f"imaginary part, which are used ({turned.sum()} of {turned.size} lines)"
+            f"{rows.path.name}:{rows.lines[at]}: phase {degrees[at]:g} deg is not that of the real "
+            f"and imaginary part, which are used ({turned.sum()} of {turned.size} lines)"
         )
         findings.append(Finding("warning", "excitation", text, float(turned.mean())))
 
 
-def without_mate(pairs: Array, modes: Array) -> NDArray[np.bool_]:
-    """Report which pairs I, J of modes stand in a file that holds no J, I.
-
-    Parameters
-    ----------
-    pairs : (m, 2) array
-        I and J of the rows.
-    modes : (n,) array
-        All modes, ascending.
-
-    Returns
-    -------
-    (n, n) array of bool
-    """
-    there = np.zeros((modes.size, modes.size), dtype=bool)
-    there[np.searchsorted(modes, pairs[:, 0]), np.searchsorted(modes, pairs[:, 1])] = True
-    return np.asarray(there & ~there.T)
-
-
-def scatter(
-    path: Path,
-    rows: Array,
-    lines: list[int],
-    columns: tuple[int, ...],
-    axes: tuple[Array, ...],
-    values: NDArray[np.generic],
+def tabulate(
+    rows: Rows, keys: tuple[Array, ...], axes: tuple[Array, ...], values: NDArray[np.generic]
 ) -> NDArray[np.generic]:
     """Put one value a row into a table; entries that the file leaves out are zero.
 
@@ -195,38 +122,32 @@ def scatter(
 
     Parameters
     ----------
-    path, rows, lines
-        As from `read_rows`.
-    columns : tuple of int
-        Columns of `rows` that hold the place of the value.
+    rows : Rows
+        For the messages.
+    keys : tuple of (m,) arrays
+        Place of each value along the axes.
     axes : tuple of arrays
-        All values of these columns, ascending: the axes of the table; the first one counts
-        frequencies.
-    values : (lines,) array
-
-    Returns
-    -------
-    array
-        Shape of `axes`.
+        All keys, ascending: the axes of the table; the first one counts frequencies.
+    values : (m,) array
     """
     table = np.zeros([a.size for a in axes], dtype=values.dtype)
     filled = np.zeros(table.shape, dtype=bool)
-    place = tuple(np.searchsorted(a, rows[:, c]) for a, c in zip(axes, columns, strict=True))
+    place = tuple(np.searchsorted(a, key) for a, key in zip(axes, keys, strict=True))
     flat = np.ravel_multi_index(place, table.shape)
     _, once = np.unique(flat, return_index=True)
     if once.size < flat.size:
-        again = min(set(range(flat.size)) - set(once.tolist()))
+        again = np.setdiff1d(np.arange(flat.size), once)[0]
         raise DatabaseError("this entry stands in the file twice").about(
-            "conflict", "entry", file=path, line=lines[again]
+            "conflict", "entry", file=rows.path, line=int(rows.lines[again])
         )
     table.flat[flat] = values
     filled.flat[flat] = True
     partly = filled.any(axis=0) & ~filled.all(axis=0)
     if partly.any():
         where = np.argwhere(partly)[0]
-        entry = [f"{a[i]:g}" for a, i in zip(axes[1:], where, strict=True)]
-        raise DatabaseError(
-            f"the entry {' '.join(entry)} is missing at "
-            f"{(~filled[(slice(None), *where)]).sum()} of {axes[0].size} frequencies"
-        ).about("missing", "entry", file=path)
+        entry = " ".join(f"{a[i]:g}" for a, i in zip(axes[1:], where, strict=True))
+        lost, every = (~filled[(slice(None), *where)]).sum(), axes[0].size
+        raise DatabaseError(f"the entry {entry} is missing at {lost} of {every} frequencies").about(
+            "missing", "entry", file=rows.path
+        )
     return table
