@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 
+#include "hydrodae/core/error.h"
 #include "hydrodae/events/source.h"
 #include "hydrodae/linalg/saddle_point.h"
 #include "hydrodae/system/kinematics.h"
