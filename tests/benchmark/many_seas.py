@@ -1,0 +1,54 @@
+"""Many seas of one device: how many times real time a core makes, alone and side by side.
+
+    python tests/benchmark/many_seas.py [CASE [SEEDS [END]]]
+
+The case (that of F3OF in waves) runs END (600) seconds with SEEDS (64) seeds of its first wave:
+some by `hydrodae.run`, all in the marches of `hydrodae sweep`. Starts, reading and tables are
+counted, the start of Python is not. The largest difference of the mean powers is printed.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from time import process_time
+
+import hydrodae
+from hydrodae import _core
+
+ROOT = Path(__file__).resolve().parents[2]
+ALONE = 4  # runs by themselves
+
+
+def main(case: str, seeds: int, end: float) -> None:
+    """Print the figures of a case."""
+    base = hydrodae.Case(path=case, values={"solver.end_time": end, "solver.accuracy": "none"})
+    key = f"wave.{base.scene.wave_names[0]}.seed"
+    started = process_time()
+    answers = []
+    for first in range(1, seeds + 1, _core.lanes):
+        group = range(first, min(first + _core.lanes, seeds + 1))
+        answers += _core.simulate_together([base.with_values({key: k}).scene for k in group])
+    side_by_side = (process_time() - started) / seeds
+    reasons = {answer for answer in answers if isinstance(answer, str)}
+    for reason in reasons:
+        print(f"not side by side: {reason}")
+    started = process_time()
+    worst = 0.0
+    for k in range(ALONE):
+        power = hydrodae.run(base.with_values({key: k + 1})).statistics["mean_power_absorbed"]
+        if not isinstance(answer := answers[k], str):
+            worst = max(worst, abs(answer["mean_power_absorbed"] / power - 1.0))
+    alone = (process_time() - started) / ALONE
+    print(f"alone        {1e3 * alone:8.1f} ms a sea, {end / alone:8.0f} times real time")
+    print(f"side by side {1e3 * side_by_side:8.1f} ms, {end / side_by_side:13.0f} times real time")
+    print(f"largest difference of a mean power: {worst:.1e}")
+
+
+if __name__ == "__main__":
+    words = sys.argv[1:]
+    main(
+        words[0] if words else str(ROOT / "cases" / "f3of" / "waves.toml"),
+        int(words[1]) if len(words) > 1 else 64,
+        float(words[2]) if len(words) > 2 else 600.0,
+    )
