@@ -78,7 +78,6 @@ def test_lanes_in_axes_that_bodies_carry(repository: Path, axes: str) -> None:
     [
         ({"solver.method": "ida"}, "solver.method is ida"),
         ({"solver.formulation": "index_2", "solver.method": "radau"}, "formulation"),
-        ({"hydro.radiation": "convolution"}, "depend on the past"),
         ({"force.pto1.delay": 0.5}, "depend on the past"),
     ],
 )
