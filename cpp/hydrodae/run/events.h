@@ -34,7 +34,7 @@ public:
   /// @returns the work of all rows through their impulses [J], where something struck
   std::optional<double> settle(Instant& at);
 
-  /// y, y' by the loads at a time; false where there are none.
+  /// y, y' by the loads at a time; false: no finite rates exist.
   bool restore(double t, VectorX& y, VectorX& yp);
 
   /// What is made from now on knows on which turn the angles are.

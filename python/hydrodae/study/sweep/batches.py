@@ -44,9 +44,9 @@ def is_verified(point: Point) -> bool:
 def make_batches(plan: Study, finished: Iterable[str]) -> list[Batch]:
     """Return what is left to run of a study.
 
-    Mean powers need no samples: runs that measure nothing else and have no estimate of their error
-    are gathered in the order of the study, whatever is finished, so that a sweep that goes on ends
-    with the same numbers.
+    Mean powers need no samples. Runs that measure nothing else, and have no estimate of their
+    error, are gathered in the order of the study. What is finished does not change the groups, so
+    that a sweep that goes on ends with the same numbers.
     """
     left = {point_key(point) for point in plan.points} - set(finished)
     shared: list[Point] = []
