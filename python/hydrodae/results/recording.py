@@ -95,7 +95,7 @@ class Recording(Mapping[str, "xarray.DataArray"]):
             return False
         return True
 
-    def _read(self, what: str, read: Callable[[ResultsReader | Reader], Result]) -> Result:
+    def _part(self, what: str, read: Callable[[ResultsReader | Reader], Result]) -> Result:
         """Read a part of the file: the first few in a child each, which costs less than all."""
         self._reads += 1
         apart = not self._own and (self._reads <= FEW or not self._sound)
@@ -190,7 +190,7 @@ class Recording(Mapping[str, "xarray.DataArray"]):
         """
         tables = {}
         for name in self._contents.impacts:
-            samples, attributes = self._read(
+            samples, attributes = self._part(
                 f"impacts on {name} are damaged", partial(_dataset, IMPACTS + name, 2**62)
             )
             table = Channel(name, samples, {})
@@ -225,7 +225,7 @@ class Recording(Mapping[str, "xarray.DataArray"]):
                 raise ResultsError(f"{self.path}: accuracy of {name} is damaged")
             return MotionError(table, attributes)
 
-        return self._read("accuracy is damaged", read)
+        return self._part("accuracy is damaged", read)
 
     @property
     def not_reproducible(self) -> str:
@@ -337,7 +337,7 @@ class Recording(Mapping[str, "xarray.DataArray"]):
             )
         count = len(self.times)
         damaged = f"channel {name} is damaged"
-        samples, attributes = self._read(damaged, partial(_dataset, name, count))
+        samples, attributes = self._part(damaged, partial(_dataset, name, count))
         if "unit" in attributes:
             attributes["units"] = attributes["unit"]  # the name that xarray and netCDF know
         shape = samples.shape
