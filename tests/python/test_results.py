@@ -9,6 +9,7 @@ import h5py
 import numpy as np
 import pytest
 
+from hydrodae import _core
 from hydrodae.results import ChannelError, Results, ResultsError
 from hydrodae.results.post import turning_points
 from hydrodae.support.units import displayed
@@ -52,13 +53,14 @@ def test_mapping_of_channels(results_file):
 def test_a_channel_is_read_once_and_only_when_asked_for(results_file, monkeypatch):
     opened = []
     results = Results(results_file, sound=True)  # without a child, whose calls are not seen
-    original = h5py.File
+    original = _core.ResultsReader
+    assert results.time[-1] == 100.0
 
     def noted(*arguments):
         opened.append(arguments)
         return original(*arguments)
 
-    monkeypatch.setattr(h5py, "File", noted)
+    monkeypatch.setattr(_core, "ResultsReader", noted)
     assert results.time[-1] == 100.0
     assert opened == []
     first = results["joints/hinge1/angle"]
