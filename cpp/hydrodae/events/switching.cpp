@@ -18,8 +18,9 @@ constexpr long watch = 1000; ///< events; see `count`
 
 Switching::Switching(system::Regime& system, double rtol)
     : s_(system), rtol_(rtol), ws_(system), size_(system.switches.size()),
-      state_{std::vector<double>(size_.size()), std::vector<Struck>(size_.size())},
       y_(system::initial_state(system)), yp_(VectorX::Zero(system.n)) {
+  state_.depth.resize(size_.size());
+  state_.struck.resize(size_.size());
   for (std::size_t k = 0; k < size_.size(); ++k) // scales are those of the rows when they hold
     put(k, s_.switches[k].kind == Kind::stop ? Mode::upper : Mode::stick);
   lay_out(s_);
