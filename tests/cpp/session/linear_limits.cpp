@@ -21,6 +21,7 @@ LinearLimits one_body() {
   body.place = Vector3(10.0, 0.0, -2.0);
   body.half_draught = 1.5;
   limits.bodies.push_back(body);
+  limits.state.bodies.emplace_back();
   return limits;
 }
 
