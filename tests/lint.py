@@ -266,6 +266,7 @@ def check_itself() -> None:
 
 def main() -> int:
     """Print what breaks the rules; 1 if anything does."""
+    argparse.ArgumentParser(prog="python -m tests.lint", description=__doc__).parse_args()
     check_itself()
     broken = [*of_pages(), *of_help(), *of_messages(), *of_docstrings(), *of_comments()]
     print("\n".join(broken) or "words: no faults")

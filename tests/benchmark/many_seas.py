@@ -9,7 +9,7 @@ counted, the start of Python is not. The largest difference of the mean powers i
 
 from __future__ import annotations
 
-import sys
+import argparse
 from pathlib import Path
 from time import process_time
 
@@ -46,9 +46,10 @@ def main(case: str, seeds: int, end: float) -> None:
 
 
 if __name__ == "__main__":
-    words = sys.argv[1:]
-    main(
-        words[0] if words else str(ROOT / "cases" / "f3of" / "waves.toml"),
-        int(words[1]) if len(words) > 1 else 64,
-        float(words[2]) if len(words) > 2 else 600.0,
-    )
+    parser = argparse.ArgumentParser(description=__doc__)
+    default = str(ROOT / "cases" / "f3of" / "waves.toml")
+    parser.add_argument("case", nargs="?", default=default, help="a case with waves")
+    parser.add_argument("seeds", nargs="?", type=int, default=64)
+    parser.add_argument("end", nargs="?", type=float, default=600.0, help="s")
+    given = parser.parse_args()
+    main(given.case, given.seeds, given.end)
