@@ -1,10 +1,10 @@
 """Many seas of one device: how many times real time a core makes, alone and side by side.
 
-    python tests/benchmark/many_seas.py [CASE [SEEDS [END]]]
+    python tests/benchmark/many_seas.py [CASE] [--seeds 64] [--end 600]
 
-The case (that of F3OF in waves) runs END (600) seconds with SEEDS (64) seeds of its first wave:
-some by `hydrodae.run`, all in the marches of `hydrodae sweep`. Starts, reading and tables are
-counted, the start of Python is not. The largest difference of the mean powers is printed.
+The case (that of F3OF in waves) runs so many seconds with so many seeds of its first wave: some by
+`hydrodae.run`, all in the marches of `hydrodae sweep`. Starts, reading and tables are counted, the
+start of Python is not. The largest difference of the mean powers is printed.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)
     default = str(ROOT / "cases" / "f3of" / "waves.toml")
     parser.add_argument("case", nargs="?", default=default, help="a case with waves")
-    parser.add_argument("seeds", nargs="?", type=int, default=64)
-    parser.add_argument("end", nargs="?", type=float, default=600.0, help="s")
+    parser.add_argument("--seeds", type=int, default=64)
+    parser.add_argument("--end", type=float, default=600.0, help="s")
     given = parser.parse_args()
     main(given.case, given.seeds, given.end)

@@ -67,7 +67,9 @@ def test_every_script_names_its_command_and_parses_its_arguments(repository: Pat
     for script in scripts(repository):
         text = script.read_text()
         name = script.relative_to(repository).as_posix()
-        if 'if __name__ == "__main__"' in text and not re.match("tests/(attack|fuzz)/", name):
+        if 'if __name__ == "__main__"' in text and not re.match(
+            "tests/(attack|fuzz|stability)/", name
+        ):
             assert list(of_script(script, name)), name
             assert parses_arguments(script), name
 
