@@ -130,6 +130,15 @@ def test_a_sweep_that_goes_on_ends_with_the_same_numbers(
     capsys.readouterr()
 
 
+def test_the_summary_names_what_went_alone(
+    repository: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    command = ["sweep", str(study_of(repository, tmp_path, 4)), "-o", str(tmp_path / "alone.nc")]
+    values = ["solver.end_time=1", "sea.ramp=0.5", "solver.method=radau"]
+    assert main([*command, "--jobs", "1", *(word for v in values for word in ("--set", v))]) == 0
+    assert "not side by side with others: solver.method is radau" in capsys.readouterr().out
+
+
 def test_batches_do_not_depend_on_what_is_finished(repository: Path, tmp_path: Path) -> None:
     plan = read_study(study_of(repository, tmp_path, 40))
     all_batches = make_batches(plan, ())

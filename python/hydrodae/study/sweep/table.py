@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -49,6 +50,10 @@ def dataset(study: Study, rows: Mapping[str, Row], attributes: Mapping[str, Any]
         )
         for name, unit in units.items()
     }
+    alone = Counter(row["alone"].splitlines()[0] for row in ordered if "alone" in row)
+    if alone:
+        told = [f"{n} {reason}" for reason, n in alone.most_common()]
+        attributes = {**attributes, "run_alone": "\n".join(told)}
     for name in ("status", "reason"):
         text = np.array([row[name] for row in ordered], dtype=str).reshape(shape)
         variables[name] = (dimensions, text)
@@ -169,6 +174,9 @@ def text(results: xr.Dataset) -> str:
     lines = [", ".join(f"{n} {word}" for word, n in zip(status, count, strict=True))]
     for reason in sorted(set(results["reason"].to_numpy().ravel()) - {""})[:5]:
         lines.append(f"  {str(reason).splitlines()[0]}")
+    for told in results.attrs.get("run_alone", "").splitlines()[:5]:
+        number, _, reason = told.partition(" ")
+        lines.append(f"{number} of them not side by side with others: {reason}")
     for name in ("mean_power_absorbed_mean", "mean_power_absorbed"):
         if name in results:
             for rung in results[RUNG].to_numpy() if RUNG in results.dims else [None]:
