@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <type_traits>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
@@ -178,14 +179,19 @@ CaseError error_at(const model::Scene& scene, const std::string& key, const std:
 }
 
 /// Calls `read(path)` with the file that `key` names, relative to the case, and adds it to the
-/// files of the scene. `what` says in messages where it is named.
+/// files of the scene. `what` says in messages where it is named. A `read` that knows the digest of
+/// the file returns it.
 template <class Read>
 void read_file(model::Scene& scene, const std::string& directory, const std::string& key,
                const std::string& name, const std::string& what, const Read& read) {
   const std::string path = (std::filesystem::path(directory) / name).lexically_normal().string();
   try {
-    read(path);
-    scene.files.push_back({key, name, path, sha256_of_file(path)});
+    if constexpr (std::is_void_v<decltype(read(path))>) {
+      read(path);
+      scene.files.push_back({key, name, path, sha256_of_file(path)});
+    } else {
+      scene.files.push_back({key, name, path, read(path)});
+    }
   } catch (const Error& error) {
     throw error_at(scene, key, what + ": " + error.what());
   }
@@ -201,8 +207,11 @@ read_database(model::Scene& scene, const std::string& directory, const std::stri
   const std::string& radiation = scene.hydro->radiation;
   const bool judged = waves && (scene.hydro->axes == "yaw" || radiation == "exponential");
   const HydroTables tables{waves, judged || radiation == "constant", radiation == "convolution"};
-  read_file(scene, directory, key, path, what,
-            [&](const std::string& whole) { out = shared_hydro_file(whole, tables); });
+  read_file(scene, directory, key, path, what, [&](const std::string& whole) {
+    SharedHydroFile found = shared_hydro_file(whole, tables);
+    out = std::move(found.database);
+    return found.sha256;
+  });
   return out;
 }
 

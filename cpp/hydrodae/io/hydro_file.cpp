@@ -264,23 +264,27 @@ hydro::Database read_hydro_file(const std::string& path, const HydroTables& tabl
   return database;
 }
 
-std::shared_ptr<const hydro::Database> shared_hydro_file(const std::string& path,
-                                                         const HydroTables& tables) {
+SharedHydroFile shared_hydro_file(const std::string& path, const HydroTables& tables) {
   struct Entry {
     HydroTables tables;
-    std::string digest;
+    std::string sha256;
     std::weak_ptr<const hydro::Database> database;
   };
   static std::mutex mutex;
   static std::map<std::string, Entry> entries;
   const std::lock_guard lock(mutex);
+  std::string sha256;
   if (const auto found = entries.find(path); found != entries.end())
-    if (std::shared_ptr<const hydro::Database> held = found->second.database.lock();
-        held && found->second.tables == tables && found->second.digest == sha256_of_file(path))
-      return held;
-  auto out = std::make_shared<const hydro::Database>(read_hydro_file(path, tables));
-  entries[path] = {tables, sha256_of_file(path), out};
-  return out;
+    if (auto held = found->second.database.lock(); held && found->second.tables == tables) {
+      sha256 = sha256_of_file(path);
+      if (found->second.sha256 == sha256)
+        return {std::move(held), std::move(sha256)};
+    }
+  auto database = std::make_shared<const hydro::Database>(read_hydro_file(path, tables));
+  if (sha256.empty())
+    sha256 = sha256_of_file(path);
+  entries[path] = {tables, sha256, database};
+  return {std::move(database), std::move(sha256)};
 }
 
 } // namespace hydrodae::io

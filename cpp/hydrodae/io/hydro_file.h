@@ -18,9 +18,13 @@ struct HydroTables {
 /// our format, or inconsistent in its shapes.
 hydro::Database read_hydro_file(const std::string& path, const HydroTables& tables = {});
 
-/// The same, read once for all scenes that hold it at a time: by the path and by the digest of the
-/// file.
-std::shared_ptr<const hydro::Database> shared_hydro_file(const std::string& path,
-                                                         const HydroTables& tables);
+/// The database of a file with the digest of its bytes.
+struct SharedHydroFile {
+  std::shared_ptr<const hydro::Database> database;
+  std::string sha256;
+};
+
+/// The same, read once for all scenes that hold it at a time: by the path and by the digest.
+SharedHydroFile shared_hydro_file(const std::string& path, const HydroTables& tables);
 
 } // namespace hydrodae::io
