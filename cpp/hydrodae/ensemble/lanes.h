@@ -50,11 +50,26 @@ struct alignas(sizeof(double) * width) Lanes {
       lane[k] /= y.lane[k];
     return *this;
   }
-  friend Lanes operator+(Lanes x, const Lanes& y) { return x += y; }
-  friend Lanes operator-(Lanes x, const Lanes& y) { return x -= y; }
-  friend Lanes operator*(Lanes x, const Lanes& y) { return x *= y; }
-  friend Lanes operator/(Lanes x, const Lanes& y) { return x /= y; }
-  friend Lanes operator-(const Lanes& x) { return Lanes(0.0) -= x; }
+  friend Lanes operator+(const Lanes& x, const Lanes& y) {
+    Lanes out = x;
+    return out += y;
+  }
+  friend Lanes operator-(const Lanes& x, const Lanes& y) {
+    Lanes out = x;
+    return out -= y;
+  }
+  friend Lanes operator*(const Lanes& x, const Lanes& y) {
+    Lanes out = x;
+    return out *= y;
+  }
+  friend Lanes operator/(const Lanes& x, const Lanes& y) {
+    Lanes out = x;
+    return out /= y;
+  }
+  friend Lanes operator-(const Lanes& x) {
+    Lanes out(0.0);
+    return out -= x;
+  }
 };
 
 /// f of each lane.
@@ -93,10 +108,22 @@ struct Moving {
   }
   Moving& operator*=(const Moving& y) { return *this = {a * y.a, a * y.b + b * y.a}; }
   Moving& operator/=(const Moving& y) { return *this = {a / y.a, (b - a / y.a * y.b) / y.a}; }
-  friend Moving operator+(Moving x, const Moving& y) { return x += y; }
-  friend Moving operator-(Moving x, const Moving& y) { return x -= y; }
-  friend Moving operator*(Moving x, const Moving& y) { return x *= y; }
-  friend Moving operator/(Moving x, const Moving& y) { return x /= y; }
+  friend Moving operator+(const Moving& x, const Moving& y) {
+    Moving out = x;
+    return out += y;
+  }
+  friend Moving operator-(const Moving& x, const Moving& y) {
+    Moving out = x;
+    return out -= y;
+  }
+  friend Moving operator*(const Moving& x, const Moving& y) {
+    Moving out = x;
+    return out *= y;
+  }
+  friend Moving operator/(const Moving& x, const Moving& y) {
+    Moving out = x;
+    return out /= y;
+  }
   friend Moving operator-(const Moving& x) { return {-x.a, -x.b}; }
 };
 
