@@ -10,6 +10,7 @@ import h5py
 import pytest
 from tests.python.small_database import CASE, write_case
 
+import hydrodae
 from hydrodae import _core
 from hydrodae.errors import CaseError
 
@@ -67,6 +68,63 @@ def test_one_mistake_gives_one_message(case: Path, row: str) -> None:
     said = error.fault.replace(f"{case.parent}{os.sep}", "")
     assert said == fault if fault != "-" else said
     assert str(error) == f"{case}:{place}: {error.fault}"
+
+
+CRANK = """[[body]]
+name = "wheel"
+mass = 10.0
+center_of_gravity = [0.0, 0.0, 0.0]
+inertia = [1.0, 2.0, 2.5]
+[[joint]]
+name = "hinge"
+type = "revolute"
+body_a = "ground"
+body_b = "wheel"
+point = [0.0, 0.0, 0.0]
+axis = [0.0, 1.0, 0.0]
+[[joint]]
+name = "rod"
+type = "distance"
+body_a = "ground"
+body_b = "wheel"
+point = [2.0, 0.0, 0.0]
+point_b = [0.5, 0.0, 0.0]
+[[constraint]]
+name = "crank"
+"""
+
+
+@pytest.mark.parametrize(
+    ("keys", "place", "key", "fault"),
+    [
+        (
+            'type = "coordinate"\njoint = "hinge"\ncoordinate = "angel"\ndrive = { amplitude = 0.1, period = 5.0 }',
+            "24:1",
+            "coordinate",
+            "constraint 'crank': coordinate = 'angel' is no motion of joint 'hinge'; did you mean "
+            "'angle'? (valid: angle)",
+        ),
+        (
+            'type = "coordinate"\njoint = "rod"\ndrive = { amplitude = 0.1, period = 5.0 }',
+            "23:1",
+            "joint",
+            "constraint 'crank': joint 'rod' has no coordinate: a distance joint has no motion of "
+            "its own",
+        ),
+        (
+            'type = "coupler"\njoint = "hinge"',
+            "20:1",
+            "joint_b",
+            "missing key 'joint_b' in [[constraint]] 'crank' (Second joint of a coupler)",
+        ),
+    ],
+)
+def test_mistakes_of_drives_and_couplers(keys: str, place: str, key: str, fault: str) -> None:
+    with pytest.raises(hydrodae.CaseError) as caught:
+        hydrodae.Case.from_text(CRANK + keys + "\n[solver]\nend_time = 1.0\n")
+    error = caught.value
+    assert (f"{error.line}:{error.column}", error.key) == (place, f"constraint.crank.{key}")
+    assert error.fault == fault
 
 
 def test_a_wrong_override_is_told_with_its_key(case):

@@ -79,3 +79,14 @@ def test_fixed_steps_wind_up_springs(row: Row, method: str, tmp_path: Path) -> N
     scene = FAMILIES[family].make(**values)
     case = scene.case({"method": method, "step": 0.002, "end_time": 4.0}, tmp_path)
     assert scene.error(hydrodae.run(case)) < 1e-2
+
+
+def test_the_centre_of_mass_of_a_free_pair_stays(tmp_path: Path) -> None:
+    """Nothing acts from outside: to 1e-8 m over 60 / rate seconds."""
+    masses = (1.0, 3.0)
+    scene = FAMILIES["free_pair"].make(masses=masses, rate=40**0.5, length=0.9, stretch=1 / 9)
+    for method in ALL[1:]:
+        results = hydrodae.run(scene.case({"method": method, "rtol": 1e-9}, tmp_path))
+        places = [results[f"bodies/{name}/position"].to_numpy()[:, 2] for name in ("a", "b")]
+        centre = np.average(places, axis=0, weights=masses)
+        assert np.ptp(centre) < 1e-8, method

@@ -171,6 +171,9 @@ def test_leaving_the_headings_stops_the_run(tmp_path: Path) -> None:
         SolverError, match=r'"?float.? has turned to a yaw of .*cover -20 to 45 deg'
     ):
         hydrodae.run(tmp_path / "case.toml")
+    case = hydrodae.Case.read(tmp_path / "case.toml")  # in a march of several it is told, too
+    for answer in _core.simulate_together([case.scene, case.scene]):
+        assert "has turned to a yaw of" in str(answer)
 
 
 def test_turning_device_and_waves_turns_the_result(tmp_path: Path) -> None:

@@ -4,15 +4,16 @@
 #include <cmath>
 
 #include "hydrodae/ensemble/lane_kernels.h"
-#include "hydrodae/system/mechanisms.h"
+#include "hydrodae/linalg/saddle_point.h"
 #include "hydrodae/system/retract.h"
 
 namespace hydrodae::ensemble {
 
 namespace {
 
-constexpr double closed = 1e-13;  ///< gaps, in units of their scale
-constexpr double regular = 1e-12; ///< pivots against their entries
+/// Pivots against their entries below which rows count as dependent: above, rounding (2e-16) leaves
+/// the reactions an error of 2e-8. A run alone refines such solutions.
+constexpr double regular = 1e-8;
 
 const LaneKernels& kernels = lane_kernels();
 
@@ -24,65 +25,6 @@ Lanes dot(const Lanes* a, const Lanes* b, Index n) {
 }
 
 } // namespace
-
-void LaneCholesky::resize(Index n) {
-  n_ = n;
-  entries_.assign(static_cast<std::size_t>(n * n), Lanes(0.0));
-  reciprocal_.assign(static_cast<std::size_t>(n), Lanes(1.0));
-}
-
-void LaneCholesky::factorise(double least, std::array<bool, width>& sound) {
-  Lanes sums[4];
-  for (Index i = 0; i < n_; ++i) {
-    Lanes* a = entries_.data() + i * n_;
-    Index j = 0;
-    for (; j + 4 <= i; j += 4) {
-      const Lanes* const rows[4] = {row(j), row(j + 1), row(j + 2), row(j + 3)};
-      kernels.dots(a, rows, j, sums);
-      for (Index k = 0; k < 4; ++k) {
-        for (Index m = 0; m < k; ++m)
-          sums[k] += a[j + m] * rows[k][j + m];
-        a[j + k] = (a[j + k] - sums[k]) * reciprocal_[static_cast<std::size_t>(j + k)];
-      }
-    }
-    for (; j < i; ++j)
-      a[j] = (a[j] - dot(a, row(j), j)) * reciprocal_[static_cast<std::size_t>(j)];
-    const Lanes entry = a[i];
-    Lanes pivot = entry - dot(a, a, i);
-    for (int k = 0; k < width; ++k)
-      if (!(pivot[k] > least * entry[k])) {
-        sound[static_cast<std::size_t>(k)] = false;
-        pivot[k] = std::isfinite(entry[k]) && entry[k] > 0.0 ? entry[k] : 1.0;
-      }
-    a[i] = sqrt(pivot);
-    reciprocal_[static_cast<std::size_t>(i)] = Lanes(1.0) / a[i];
-  }
-}
-
-void LaneCholesky::solve_forward(Lanes* x, Index from) const {
-  for (Index i = from; i < n_; ++i)
-    x[i] =
-        (x[i] - dot(row(i) + from, x + from, i - from)) * reciprocal_[static_cast<std::size_t>(i)];
-}
-
-void LaneCholesky::solve_forward(Lanes* const* x, Index from) const {
-  Lanes sums[4];
-  for (Index i = from; i < n_; ++i) {
-    const Lanes* const vectors[4] = {x[0] + from, x[1] + from, x[2] + from, x[3] + from};
-    kernels.dots(row(i) + from, vectors, i - from, sums);
-    for (int k = 0; k < 4; ++k)
-      x[k][i] = (x[k][i] - sums[k]) * reciprocal_[static_cast<std::size_t>(i)];
-  }
-}
-
-HYDRODAE_WIDE void LaneCholesky::solve_backward(Lanes* x) const {
-  for (Index i = n_ - 1; i >= 0; --i) {
-    x[i] *= reciprocal_[static_cast<std::size_t>(i)];
-    const Lanes* a = row(i);
-    for (Index k = 0; k < i; ++k)
-      x[k] -= a[k] * x[i];
-  }
-}
 
 LaneModel::Run::Run(const system::Regime& regime)
     : s(regime), state(regime), y(VectorX::Zero(regime.n)), still(VectorX::Zero(regime.n)),
@@ -103,6 +45,7 @@ LaneModel::LaneModel(std::span<const system::Regime* const> runs)
           take_offs_.push_back(port.component);
       });
   absorbed_.resize(take_offs_.size());
+  balances_.resize(s_.n_mechanisms > 1 ? 1 + static_cast<std::size_t>(s_.n_mechanisms) : 1);
 }
 
 /// Bodies that share added mass are one cluster.
@@ -170,6 +113,8 @@ void LaneModel::find_rows() {
           {static_cast<Index>(i), p});
   schur_.resize(static_cast<Index>(rows_.size()));
   lambda_.resize(rows_.size());
+  gap_.resize(rows_.size());
+  step_.resize(static_cast<std::size_t>(s_.n_u));
 }
 
 /// y of run k.
@@ -263,8 +208,8 @@ HYDRODAE_WIDE void LaneModel::add_water(const Lanes* y, Lanes* yp) {
   h.products.output.add_product(z, damped_.data());
   h.products.damping.add_product(U_.data(), damped_.data());
   for (std::size_t u = 0; u < U_.size(); ++u) {
-    power_ -= U_[u] * damped_[u];
-    kinetic_ += Lanes(0.5) * U_[u] * momentum_[u];
+    balances_[0].power -= U_[u] * damped_[u];
+    balances_[0].kinetic += Lanes(0.5) * U_[u] * momentum_[u];
   }
   force_ = damped_;
   if (h.axes != system::HydroAxes::mean)
@@ -295,8 +240,8 @@ HYDRODAE_WIDE void LaneModel::add_inertia(const Lanes* y, Lanes* yp) {
       continue;
     const BodyLanes& b = bodies_[i];
     const Vec3<Lanes> spin = data.inertia.cast<Lanes>() * b.w;
-    kinetic_ += Lanes(0.5) * (Lanes(data.mass) * hydrodae::dot<Lanes>(b.v, b.v) +
-                              hydrodae::dot<Lanes>(b.w, spin));
+    balances_[0].kinetic += Lanes(0.5) * (Lanes(data.mass) * hydrodae::dot<Lanes>(b.v, b.v) +
+                                          hydrodae::dot<Lanes>(b.w, spin));
     Vec6<Lanes> load = loads_[i];
     load.tail<3>() -= cross<Lanes>(b.w, spin);
     std::vector<Lanes>& right = clusters_[static_cast<std::size_t>(cluster_of_[i])].load;
@@ -519,6 +464,18 @@ void LaneModel::factorise_rows() {
   schur_.factorise(regular, sound);
 }
 
+/// loads := L^-T (loads + L^-1 G^T lambda) of each cluster.
+HYDRODAE_WIDE void LaneModel::add_reactions() {
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    for (const Row::Part& part : rows_[i].parts) {
+      Lanes* load = clusters_[static_cast<std::size_t>(part.cluster)].load.data();
+      for (std::size_t k = static_cast<std::size_t>(part.from); k < part.w.size(); ++k)
+        load[k] += part.w[k] * lambda_[i];
+    }
+  for (Cluster& cluster : clusters_)
+    cluster.mass.solve_backward(cluster.load.data());
+}
+
 /// Accelerations into the loads of the clusters, by their Schur complement.
 HYDRODAE_WIDE void LaneModel::solve() {
   for (Cluster& cluster : clusters_)
@@ -532,23 +489,16 @@ HYDRODAE_WIDE void LaneModel::solve() {
   }
   schur_.solve_forward(lambda_.data());
   schur_.solve_backward(lambda_.data());
-  for (std::size_t i = 0; i < rows_.size(); ++i)
-    for (const Row::Part& part : rows_[i].parts) {
-      Lanes* load = clusters_[static_cast<std::size_t>(part.cluster)].load.data();
-      for (std::size_t k = static_cast<std::size_t>(part.from); k < part.w.size(); ++k)
-        load[k] += part.w[k] * lambda_[i];
-    }
-  for (Cluster& cluster : clusters_)
-    cluster.mass.solve_backward(cluster.load.data());
+  add_reactions();
 }
 
 void LaneModel::accelerations(double t, const Lanes* y, Lanes* yp) {
   add_elements(t, y, yp);
   see_bodies();
-  power_ = kinetic_ = Lanes(0.0);
+  balances_[0] = {Lanes(0.0), Lanes(0.0)};
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    power_ += hydrodae::dot<Lanes>(Vec3<Lanes>(loads_[i].head<3>()), bodies_[i].v);
-    power_ += hydrodae::dot<Lanes>(Vec3<Lanes>(loads_[i].tail<3>()), bodies_[i].w);
+    balances_[0].power += hydrodae::dot<Lanes>(Vec3<Lanes>(loads_[i].head<3>()), bodies_[i].v);
+    balances_[0].power += hydrodae::dot<Lanes>(Vec3<Lanes>(loads_[i].tail<3>()), bodies_[i].w);
     bodies_[i].v_dot = bodies_[i].w_dot = Vec3<Lanes>(Lanes(0.0), Lanes(0.0), Lanes(0.0));
   }
   if (s_.hydro.n_moving > 0)
@@ -564,98 +514,173 @@ void LaneModel::accelerations(double t, const Lanes* y, Lanes* yp) {
       yp[data.u0 + k] = clusters_[static_cast<std::size_t>(cluster_of_[i])]
                             .load[static_cast<std::size_t>(offset_[i] + k)];
   }
+  weigh_mechanisms(yp);
 }
 
-/// step = -M^-1 G^T (G M^-1 G^T)^-1 gap, (n_u,) in lanes.
-void LaneModel::close(const std::vector<Lanes>& gap, std::vector<Lanes>& step) {
+/// step_ = -M^-1 G^T (G M^-1 G^T)^-1 gap_, (n_u,) in lanes.
+void LaneModel::close() {
   for (std::size_t i = 0; i < rows_.size(); ++i)
-    lambda_[i] = -gap[i];
+    lambda_[i] = -gap_[i];
   schur_.solve_forward(lambda_.data());
   schur_.solve_backward(lambda_.data());
   for (Cluster& cluster : clusters_)
     std::fill(cluster.load.begin(), cluster.load.end(), Lanes(0.0));
-  for (std::size_t i = 0; i < rows_.size(); ++i)
-    for (const Row::Part& part : rows_[i].parts) {
-      Lanes* load = clusters_[static_cast<std::size_t>(part.cluster)].load.data();
-      for (std::size_t k = static_cast<std::size_t>(part.from); k < part.w.size(); ++k)
-        load[k] += part.w[k] * lambda_[i];
-    }
-  for (Cluster& cluster : clusters_)
-    cluster.mass.solve_backward(cluster.load.data());
+  add_reactions();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const system::BodyData& data = s_.bodies[i];
     for (int k = 0; k < data.n_active; ++k)
-      step[static_cast<std::size_t>(data.u0 - s_.u0 + k)] =
+      step_[static_cast<std::size_t>(data.u0 - s_.u0 + k)] =
           clusters_[static_cast<std::size_t>(cluster_of_[i])]
               .load[static_cast<std::size_t>(offset_[i] + k)];
   }
 }
 
-void LaneModel::project(Lanes* y) {
-  constexpr int most = 8;
-  std::vector<Lanes> gap(rows_.size()), step(static_cast<std::size_t>(s_.n_u));
-  VectorX move(s_.n_u);
-  const auto see = [&] {
-    for (std::size_t k = 0; k < width; ++k) {
-      take(y, k);
-      system::unpack<double>(runs_[k].s, runs_[k].y.data(), runs_[k].still.data(),
-                             runs_[k].state.bodies);
-    }
-    see_bodies();
-  };
-  const auto put = [&] {
+/// Poses of y.
+void LaneModel::see(const Lanes* y) {
+  for (std::size_t k = 0; k < width; ++k) {
+    take(y, k);
+    system::unpack<double>(runs_[k].s, runs_[k].y.data(), runs_[k].still.data(),
+                           runs_[k].state.bodies);
+  }
+  see_bodies();
+}
+
+/// Positions of the runs into y.
+void LaneModel::put(Lanes* y) const {
+  for (std::size_t k = 0; k < width; ++k)
+    for (Index i = 0; i < s_.u0; ++i)
+      y[i].lane[k] = runs_[k].y[i];
+}
+
+/// gap_ of all rows at the poses of y. @returns the widest of each lane over its scale
+Lanes LaneModel::find_gaps(const Lanes* y) {
+  see(y);
+  Lanes worst(0.0);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const joint::Row<Lanes> row =
+        smooth_row<Lanes>(rows_[i].kind, *rows_[i].joint, geometry<Lanes>(*rows_[i].joint));
+    gap_[i] = row.value;
+    rows_[i].gradient = row.gradient;
     for (std::size_t k = 0; k < width; ++k)
-      for (Index i = 0; i < s_.u0; ++i)
-        y[i].lane[k] = runs_[k].y[i];
-  };
+      if (const double part = std::abs(row.value.lane[k]) / runs_[k].s.row_scale[rows_[i].mu];
+          !(part <= worst.lane[k]))
+        worst.lane[k] = part; // NaN too
+  }
+  return worst;
+}
+
+/// gap_: rates of all rows at the last poses. @returns the largest of each lane over its scale
+Lanes LaneModel::find_rates(const Lanes* y) {
+  Lanes worst(0.0), fastest(0.0);
+  for (Index i = s_.u0; i < s_.u0 + s_.n_u; ++i)
+    for (std::size_t k = 0; k < width; ++k)
+      fastest.lane[k] = std::max(fastest.lane[k], std::abs(y[i].lane[k]));
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    gap_[i] = Lanes(0.0);
+    const int side_body[2] = {rows_[i].joint->A.body, rows_[i].joint->B.body};
+    for (int side = 0; side < 2; ++side) {
+      if (side_body[side] < 0)
+        continue;
+      const system::BodyData& data = s_.bodies[static_cast<std::size_t>(side_body[side])];
+      for (int k = 0; k < data.n_active; ++k)
+        gap_[i] +=
+            rows_[i].gradient[6 * side + data.active[static_cast<std::size_t>(k)]] * y[data.u0 + k];
+    }
+    for (std::size_t k = 0; k < width; ++k)
+      if (const double part = std::abs(gap_[i].lane[k]) /
+                              std::max(runs_[k].s.row_scale[rows_[i].lambda], fastest.lane[k]);
+          !(part <= worst.lane[k]))
+        worst.lane[k] = part;
+  }
+  return worst;
+}
+
+void LaneModel::move_positions(Lanes* y) {
+  VectorX move(s_.n_u);
+  for (std::size_t k = 0; k < width; ++k) {
+    for (Index i = 0; i < s_.n_u; ++i)
+      move[i] = step_[static_cast<std::size_t>(i)].lane[k];
+    system::retract(runs_[k].s, move, runs_[k].y);
+  }
+  put(y);
+}
+
+/// As SaddlePoint::project does for one run, with the same limits.
+void LaneModel::project(Lanes* y) {
+  using linalg::SaddlePoint;
   for (std::size_t k = 0; k < width; ++k) {
     take(y, k);
     system::normalise(runs_[k].s, runs_[k].y);
   }
-  put();
+  put(y);
   if (rows_.empty())
     return;
-  for (int pass = 0; pass < most; ++pass) {
-    see();
-    double worst = 0.0;
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      gap[i] =
-          smooth_row<Lanes>(rows_[i].kind, *rows_[i].joint, geometry<Lanes>(*rows_[i].joint)).value;
-      for (std::size_t k = 0; k < width; ++k)
-        if (sound[k])
-          worst = std::max(worst, std::abs(gap[i].lane[k]) / runs_[k].s.row_scale[rows_[i].mu]);
-    }
-    if (worst <= closed)
-      break;
-    close(gap, step);
-    for (std::size_t k = 0; k < width; ++k) {
-      for (Index i = 0; i < s_.n_u; ++i)
-        move[i] = step[static_cast<std::size_t>(i)].lane[k];
-      system::retract(runs_[k].s, move, runs_[k].y);
-    }
-    put();
+  Lanes gap = find_gaps(y);
+  double before = HUGE_VAL, worst = widest(gap);
+  for (int pass = 0; pass < SaddlePoint::projections && worst > SaddlePoint::closed; ++pass) {
+    if (worst >= 0.5 * before && worst < SaddlePoint::stalled)
+      break; // rounding
+    before = worst;
+    close();
+    move_positions(y);
+    gap = find_gaps(y);
+    worst = widest(gap);
   }
+  find_rates(y);
   for (int pass = 0; pass < 2; ++pass) { // the matrix is of a pose a little off: twice
-    if (pass == 0)
-      see();
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const system::JointData& j = *rows_[i].joint;
-      if (pass == 0)
-        rows_[i].gradient = smooth_row<Lanes>(rows_[i].kind, j, geometry<Lanes>(j)).gradient;
-      gap[i] = Lanes(0.0);
-      const int side_body[2] = {j.A.body, j.B.body};
-      for (int side = 0; side < 2; ++side) {
-        if (side_body[side] < 0)
-          continue;
-        const system::BodyData& data = s_.bodies[static_cast<std::size_t>(side_body[side])];
-        for (int k = 0; k < data.n_active; ++k)
-          gap[i] += rows_[i].gradient[6 * side + data.active[static_cast<std::size_t>(k)]] *
-                    y[data.u0 + k];
-      }
-    }
-    close(gap, step);
+    close();
     for (Index i = 0; i < s_.n_u; ++i)
-      y[s_.u0 + i] += step[static_cast<std::size_t>(i)];
+      y[s_.u0 + i] += step_[static_cast<std::size_t>(i)];
+    const Lanes rate = find_rates(y);
+    for (std::size_t k = 0; k < width && pass == 1; ++k)
+      sound[k] =
+          sound[k] && gap.lane[k] <= SaddlePoint::open && rate.lane[k] <= SaddlePoint::moving;
+  }
+}
+
+/// The largest of the lanes that are sound.
+double LaneModel::widest(const Lanes& gap) const {
+  double out = 0.0;
+  for (std::size_t k = 0; k < width; ++k)
+    if (sound[k] && std::isfinite(gap.lane[k]))
+      out = std::max(out, gap.lane[k]);
+  return out;
+}
+
+/// Kinetic energy of each mechanism, and the power of all that acts on its bodies: w x I w does no
+/// work.
+void LaneModel::weigh_mechanisms(const Lanes* yp) {
+  if (balances_.size() == 1)
+    return;
+  std::fill(balances_.begin() + 1, balances_.end(), Balance{Lanes(0.0), Lanes(0.0)});
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const system::BodyData& data = s_.bodies[i];
+    if (data.mechanism < 0)
+      continue;
+    Vec3<Lanes> v_dot(Lanes(0.0), Lanes(0.0), Lanes(0.0)), w_dot = v_dot;
+    for (int k = 0; k < data.n_active; ++k) {
+      const int c = data.active[static_cast<std::size_t>(k)];
+      (c < 3 ? v_dot[c] : w_dot[c - 3]) = yp[data.u0 + k];
+    }
+    const BodyLanes& b = bodies_[i];
+    const Vec3<Lanes> spin = data.inertia.cast<Lanes>() * b.w;
+    Balance& of = balances_[1 + static_cast<std::size_t>(data.mechanism)];
+    of.power +=
+        Lanes(data.mass) * hydrodae::dot<Lanes>(b.v, v_dot) + hydrodae::dot<Lanes>(spin, w_dot);
+    of.kinetic += Lanes(0.5) * (Lanes(data.mass) * hydrodae::dot<Lanes>(b.v, b.v) +
+                                hydrodae::dot<Lanes>(b.w, spin));
+  }
+}
+
+void LaneModel::check(std::size_t k, double t) const {
+  const Run& run = runs_[k];
+  std::vector<double> loads;
+  for (const system::ElementList& list : run.s.elements) {
+    if (!element::is_on_body(list.laws->shape.port))
+      continue;
+    const system::ElementScratch<double>& seen = run.state.elements[system::index_of(run.s, list)];
+    loads.resize(6 * list.laws->size() * (1 + list.laws->parts.size()));
+    list.laws->report(t, seen.in.data(), seen.out.data(), loads.data());
   }
 }
 

@@ -13,40 +13,12 @@
 #include <string>
 #include <vector>
 
-#include "hydrodae/ensemble/lanes.h"
+#include "hydrodae/ensemble/lane_cholesky.h"
 #include "hydrodae/system/residual.h"
 
 namespace hydrodae::ensemble {
 
 using BodyLanes = element::BodyState<Lanes>;
-
-/// A symmetric positive definite matrix in lanes, by its Cholesky factor L.
-class LaneCholesky {
-public:
-  void resize(Index n);
-  Index size() const { return n_; }
-  void set_zero() { std::fill(entries_.begin(), entries_.end(), Lanes(0.0)); }
-  /// Entry of the lower triangle, column <= row.
-  Lanes& at(Index row, Index column) {
-    return entries_[static_cast<std::size_t>(row * n_ + column)];
-  }
-
-  /// M = L L^T. A pivot below `least` of its entry is replaced by that entry, and its lane is
-  /// cleared in `sound`.
-  void factorise(double least, std::array<bool, width>& sound);
-
-  /// x := L^-1 x where x is zero before `from`, and x := L^-T x.
-  void solve_forward(Lanes* x, Index from = 0) const;
-  /// Of four vectors.
-  void solve_forward(Lanes* const* x, Index from) const;
-  void solve_backward(Lanes* x) const;
-
-private:
-  const Lanes* row(Index i) const { return entries_.data() + i * n_; }
-  Index n_ = 0;
-  std::vector<Lanes> entries_;    ///< (n, n) by rows; the lower triangle counts
-  std::vector<Lanes> reciprocal_; ///< (n,) 1 / L_ii
-};
 
 class LaneModel {
 public:
@@ -59,8 +31,12 @@ public:
   /// y' of q, u and z by y (n,). Lanes without finite accelerations are cleared in `sound`.
   void accelerations(double t, const Lanes* y, Lanes* yp);
 
+  /// Lets the loads on the bodies of run k judge the state of the last `accelerations`. Throws
+  /// SolverError where one of them has no meaning there, as beyond the headings of a database.
+  void check(std::size_t k, double t) const;
+
   /// Moves q, then u, by the smallest amount in the metric of M onto the constraints, with the
-  /// matrix of the last `accelerations`.
+  /// matrix of the last `accelerations`. Lanes that stay open are cleared in `sound`.
   void project(Lanes* y);
 
   /// Is the lane computed well so far?
@@ -68,8 +44,12 @@ public:
 
   // Of the state of the last `accelerations`:
   const std::vector<Lanes>& absorbed() const { return absorbed_; } ///< by take-offs [W]
-  const Lanes& power() const { return power_; }     ///< of all loads but the reactions [W]
-  const Lanes& kinetic() const { return kinetic_; } ///< energy of bodies and fluid [J]
+  /// Power of the loads and kinetic energy: of the scene with the fluid in it, without the
+  /// reactions; then, where there are several, of the bodies of each mechanism by all loads.
+  struct Balance {
+    Lanes power, kinetic; ///< [W], [J]
+  };
+  const std::vector<Balance>& balances() const { return balances_; }
 
   const std::vector<std::string>& take_offs() const { return take_offs_; }
 
@@ -130,8 +110,16 @@ private:
   void fill_rows();
   void factorise_rows();
   void solve();
+  void add_reactions();
+  void weigh_mechanisms(const Lanes* yp);
   template <class S> joint::Geometry<S> geometry(const system::JointData& j) const;
-  void close(const std::vector<Lanes>& gap, std::vector<Lanes>& step);
+  void close();
+  void see(const Lanes* y);
+  void put(Lanes* y) const;
+  Lanes find_gaps(const Lanes* y);
+  Lanes find_rates(const Lanes* y);
+  double widest(const Lanes& gap) const;
+  void move_positions(Lanes* y);
   void take(const Lanes* y, std::size_t k);
 
   const system::Regime& s_; ///< of the first run: what all have in common
@@ -147,8 +135,10 @@ private:
   std::vector<Row> rows_;
   LaneCholesky schur_; ///< G M^-1 G^T
   std::vector<Lanes> lambda_;
+  std::vector<Lanes> gap_;  ///< of each row, or its rate
+  std::vector<Lanes> step_; ///< (n_u,) that closes the gaps
   std::vector<Lanes> absorbed_;
-  Lanes power_, kinetic_;
+  std::vector<Balance> balances_;
   std::vector<std::string> take_offs_;
 };
 

@@ -8,6 +8,8 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/ensemble/lane_model.h"
 #include "hydrodae/integrate/dormand_prince_8.h"
+#include "hydrodae/integrate/explicit_steps.h"
+#include "hydrodae/linalg/equations.h"
 #include "hydrodae/run/guards.h"
 #include "hydrodae/session/sea_sample.h"
 #include "hydrodae/system/forcing.h"
@@ -17,6 +19,7 @@ namespace hydrodae::ensemble {
 
 namespace {
 
+using integrate::ExplicitSteps;
 using integrate::tableaux::rk8_a;
 using integrate::tableaux::rk8_b;
 using integrate::tableaux::rk8_c;
@@ -25,7 +28,7 @@ using integrate::tableaux::rk8_e5;
 
 constexpr std::size_t stages = 12;
 
-/// Part of the run below which a step is that of one run alone, which holds up the others.
+/// Part of the run below which steps do not come to its end in a bearable time: ten million.
 constexpr double shortest = 1e-7;
 
 /// What one run of the march has of its own.
@@ -34,15 +37,16 @@ struct Run {
       : regime(start.regime), forcing(regime, start.scene.solver.end_time, start.scene.output.step),
         scale(start.regime, *start.pattern, start.y, start.yp, forcing.motion(),
               start.scene.sea.ramp, start.scene.solver.rtol),
-        y(start.y), yp(start.yp) {}
+        guards(run::make_end_guards(regime, start.scene.solver)), y(start.y), yp(start.yp) {}
 
   const system::Regime& regime;
   system::Forcing forcing;
   system::MotionScale scale;
+  std::vector<std::unique_ptr<run::EndGuard>> guards;
   VectorX y, yp; ///< at the end of the last step
   std::unique_ptr<session::SeaSample> sea;
-  double exchanged = 0.0; ///< energy [J]
-  std::string left;       ///< why it has left the march; empty: it is in it
+  std::vector<double> exchanged; ///< energy of each balance [J]
+  std::string left;              ///< why it has left the march; empty: it is in it
 };
 
 class March {
@@ -57,6 +61,7 @@ private:
   regimes_of(const std::vector<std::unique_ptr<Start>>& starts);
   void start_samples();
   double first_step() const;
+  void look(std::size_t k, double start);
   double bound();
   void set_stage(double h, std::size_t count, std::span<const double> weights);
   void try_step(double h);
@@ -68,7 +73,7 @@ private:
   bool step(double end);
   void accept(double h, double t);
   void add_work(double h);
-  void judge_energy();
+  void judge_energy(std::size_t k);
   void sample(double t0, double h, const std::vector<Lanes>& work);
   void leave(std::size_t k, const std::string& why);
   bool anyone() const;
@@ -91,7 +96,8 @@ private:
       powers_;                   ///< of each stage and of the end: take-offs, then all loads
   std::vector<Lanes> work_;      ///< their integrals [J]
   std::vector<Lanes> mean_from_; ///< the same at the end of the ramp
-  Lanes start_energy_, kinetic_most_;
+  std::vector<LaneModel::Balance> start_;
+  std::vector<Lanes> churned_; ///< of each balance, the integral of |power| [J]
   long next_sample_ = 0;
   std::vector<double> row_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
@@ -117,10 +123,11 @@ March::March(const std::vector<std::unique_ptr<Start>>& starts)
       rtol_(scene_.solver.rtol), y_(static_cast<std::size_t>(n_)), stage_(y_), error_(y_),
       scales_(y_), sums_(static_cast<std::size_t>(starts[0]->regime.n_error_groups())),
       k_(stages + 1, y_) {
+  work_.assign(model_.take_offs().size() + model_.balances().size(), Lanes(0.0));
+  powers_.assign(stages + 1, work_);
+  runs_.reserve(count_);
   for (std::size_t k = 0; k < count_; ++k)
     runs_.emplace_back(*starts[k]);
-  powers_.assign(stages + 1, std::vector<Lanes>(model_.take_offs().size() + 1));
-  work_.assign(model_.take_offs().size() + 1, Lanes(0.0));
   mean_from_ = work_;
   for (std::size_t k = 0; k < width; ++k) {
     const Run& run = runs_[std::min(k, count_ - 1)];
@@ -130,7 +137,10 @@ March::March(const std::vector<std::unique_ptr<Start>>& starts)
   }
   model_.accelerations(0.0, y_.data(), k_[stages].data());
   remember_powers(stages);
-  start_energy_ = kinetic_most_ = model_.kinetic();
+  start_ = model_.balances();
+  churned_.assign(start_.size(), Lanes(0.0));
+  for (Run& run : runs_)
+    run.exchanged.assign(start_.size(), 0.0);
   start_samples();
 }
 
@@ -156,27 +166,19 @@ void March::leave(std::size_t k, const std::string& why) {
 /// First step [s], as a run alone begins (ExplicitRk), the shortest of all.
 double March::first_step() const {
   double out = INFINITY;
-  for (const Run& run : runs_) {
-    double time = INFINITY;
-    for (const system::BodyData& b : run.regime.bodies)
-      for (int k = 0; k < b.n_active; ++k) {
-        const Index u = b.u0 + k;
-        const double size = run.regime.scale[u] * b.time_scale;
-        time = std::min({time, b.time_scale, size / std::max(std::abs(run.y[u]), 1e-300),
-                         std::sqrt(size / std::max(std::abs(run.yp[u]), 1e-300))});
-      }
-    out = std::min(out, 0.3 * std::sqrt(rtol_) * time);
-  }
+  for (const Run& run : runs_)
+    out = std::min(out, linalg::first_step(run.regime, rtol_, run.y, run.yp));
   return out * std::pow(rtol_, 0.2 - 0.5);
 }
 
 /// The latest time that a step may reach by what is known of waves and drives ahead [s].
 double March::bound() {
-  constexpr double gap = 0.48; // as of ExplicitRk
   double out = INFINITY;
   for (std::size_t k = 0; k < count_; ++k)
     if (runs_[k].left.empty())
-      out = std::min(out, runs_[k].forcing.limit(model_.turns(static_cast<int>(k)), gap, 1.0).time);
+      out = std::min(
+          out,
+          runs_[k].forcing.limit(model_.turns(static_cast<int>(k)), ExplicitSteps::gap, 1.0).time);
   return scene_.solver.max_step > 0.0 ? std::min(out, t_ + scene_.solver.max_step) : out;
 }
 
@@ -193,7 +195,9 @@ HYDRODAE_WIDE void March::set_stage(double h, std::size_t count, std::span<const
 
 void March::remember_powers(std::size_t stage) {
   std::copy(model_.absorbed().begin(), model_.absorbed().end(), powers_[stage].begin());
-  powers_[stage].back() = model_.power();
+  auto power = powers_[stage].begin() + std::ssize(model_.absorbed());
+  for (const LaneModel::Balance& balance : model_.balances())
+    *power++ = balance.power;
 }
 
 /// The stages and the end of a step before the projection, in stage_.
@@ -257,26 +261,20 @@ Lanes March::error(double h) {
 /// Do the accelerations at the end of the step agree with those of the last stage? See
 /// ExplicitRk::is_smooth: a slope that changes within the step shows here.
 bool March::is_smooth(double h) {
-  constexpr double allowed = 100.0, least = 3.0, memory = 0.8;
   for (std::size_t i = 0; i < error_.size(); ++i)
     error_[i] = Lanes(h) * (k_[stages][i] - k_[stages - 1][i]);
   const Lanes jump = norm();
   Lanes next = usual_jump_;
-  for (std::size_t k = 0; k < count_; ++k) {
-    if (!runs_[k].left.empty())
-      continue;
-    const double now = std::max(jump.lane[k], least), common = std::max(usual_jump_.lane[k], least);
-    if (!(now <= allowed * common))
+  for (std::size_t k = 0; k < count_; ++k)
+    if (runs_[k].left.empty() && !ExplicitSteps::is_usual(jump.lane[k], next.lane[k]))
       return false;
-    next.lane[k] = std::pow(common, memory) * std::pow(now, 1.0 - memory);
-  }
   usual_jump_ = next;
   return true;
 }
 
 /// Makes one step up to `end` at most; false where no run is left.
 bool March::step(double end) {
-  constexpr double safety = 0.9, least = 0.2, most = 6.0, power = 1.0 / 8.0;
+  constexpr double power = 1.0 / 8.0; ///< of the error that bounds the next step
   for (std::size_t i = 0; i < scales_.size(); ++i)
     for (std::size_t k = 0; k < width; ++k)
       scales_[i].lane[k] = runs_[std::min(k, count_ - 1)].regime.scale[static_cast<Index>(i)];
@@ -310,7 +308,8 @@ bool March::step(double end) {
     if (worst > 1.0) {
       ++failures_;
       failed = true;
-      h_ = h * std::max(least, safety * std::pow(worst, -power));
+      h_ = h *
+           std::max(ExplicitSteps::least_growth, ExplicitSteps::safety * std::pow(worst, -power));
       if (h_ < shortest * end_)
         leave(by, "its steps become too short for the others");
       continue;
@@ -330,16 +329,14 @@ bool March::step(double end) {
     }
     for (std::size_t k = 0; k < count_; ++k)
       if (!model_.sound[k])
-        leave(k, "its pose is singular");
+        leave(k, "its pose is singular, or its joints do not close");
     accept(h, reached);
     if (fixed) {
       h_ = scene_.solver.step;
       return true;
     }
-    const double e = std::max(worst, 1e-10);
-    h_ = h * std::clamp(safety * std::pow(e, -0.7 * power) * std::pow(last_error_, 0.3 * power),
-                        least, failed ? 1.0 : most);
-    last_error_ = std::max(e, 1e-4);
+    h_ = h * ExplicitSteps::growth(worst, power, failed ? 1.0 : ExplicitSteps::most_growth,
+                                   last_error_);
     if (h == allowed) // a step that was cut says nothing against longer ones
       h_ = std::max(h_, wanted);
     return true;
@@ -351,6 +348,7 @@ void March::accept(double h, double t) {
   const std::vector<Lanes> before = work_;
   add_work(h);
   sample(t_, h, before);
+  const double start = t_;
   t_ = t;
   ++steps_;
   for (std::size_t k = 0; k < count_; ++k) {
@@ -363,8 +361,21 @@ void March::accept(double h, double t) {
     }
     model_.accept(static_cast<int>(k), t_, run.y, run.yp);
     run.scale.accept(t_, run.y);
+    look(k, start);
   }
-  judge_energy();
+}
+
+/// The guards of a run alone, and the loads that have no meaning everywhere.
+void March::look(std::size_t k, double start) {
+  Run& run = runs_[k];
+  try {
+    for (const std::unique_ptr<run::EndGuard>& guard : run.guards)
+      guard->look({start, t_, false, run.y, run.yp, model_.turns(static_cast<int>(k))});
+    model_.check(k, t_);
+    judge_energy(k);
+  } catch (const SolverError& error) {
+    leave(k, error.halt.what);
+  }
 }
 
 /// The work over the step by the stages of the method, as one more unknown.
@@ -373,26 +384,33 @@ HYDRODAE_WIDE void March::add_work(double h) {
     for (std::size_t j = 0; j < stages; ++j)
       if (rk8_b[j] != 0.0)
         work_[i] += Lanes(h * rk8_b[j]) * powers_[j][i];
+  const std::size_t first = model_.take_offs().size();
+  for (std::size_t b = 0; b < churned_.size(); ++b)
+    churned_[b] += Lanes(0.5 * h) * (abs(powers_[0][first + b]) + abs(powers_[stages][first + b]));
 }
 
-/// Kinetic energy gained minus the work of all loads, against the energy exchanged: a run alone
-/// ends beyond one hundredth.
-void March::judge_energy() {
-  constexpr double allowed = 1e-2;
-  for (std::size_t k = 0; k < count_; ++k) {
-    Run& run = runs_[k];
-    if (!run.left.empty())
-      continue;
-    double absorbed = 0.0;
-    for (std::size_t i = 0; i + 1 < work_.size(); ++i)
-      absorbed += std::abs(work_[i].lane[k]);
-    const double kinetic = model_.kinetic().lane[k];
-    run.exchanged = std::max({run.exchanged, kinetic, absorbed, std::abs(work_.back().lane[k])});
-    const double missing = std::abs(kinetic - start_energy_.lane[k] - work_.back().lane[k]) -
-                           run::energy_of_errors(run.regime, rtol_);
-    if (!(missing <= allowed * run.exchanged))
-      leave(k, "energy is missing, " + rounded_text(missing / run.exchanged) +
-                   " of what was exchanged");
+/// Kinetic energy gained minus work, of the scene and of each mechanism, against the energy
+/// exchanged: as the guard of the energy does for a run alone. What a wrong step exchanges does not
+/// count.
+void March::judge_energy(std::size_t k) {
+  constexpr double more = 10.0; // as often as before the step the exchange is believed
+  const double allowed = run::allowed_energy(scene_.solver);
+  if (allowed == 0.0)
+    return;
+  Run& run = runs_[k];
+  const std::size_t first = model_.take_offs().size();
+  for (std::size_t b = 0; b < start_.size(); ++b) {
+    const double kinetic = model_.balances()[b].kinetic.lane[k];
+    double now = std::max(kinetic, churned_[b].lane[k]);
+    for (std::size_t i = 0; i < first && b == 0; ++i)
+      now = std::max(now, std::abs(work_[i].lane[k]));
+    const double believed = std::min(now, std::max(more * run.exchanged[b], kinetic));
+    run.exchanged[b] = std::max(run.exchanged[b], now);
+    const double missing =
+        std::abs(kinetic - start_[b].kinetic.lane[k] - work_[first + b].lane[k]) -
+        run::energy_of_errors(run.regime, rtol_, static_cast<int>(b) - 1);
+    if (!(missing <= allowed * believed))
+      leave(k, "energy is missing, " + rounded_text(missing / believed) + " of what was exchanged");
   }
 }
 

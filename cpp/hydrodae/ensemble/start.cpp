@@ -81,6 +81,20 @@ std::string of_elements(const system::ElementList& list) {
   return "";
 }
 
+/// Have two scenes the same states of the radiation, driven alike?
+bool same_memory(const system::HydroData& a, const system::HydroData& b) {
+  using Block = system::HydroData::Block;
+  using Input = system::HydroData::Input;
+  const auto block = [](const Block& x, const Block& y) {
+    return x.state == y.state && x.a == y.a && x.b == y.b && x.pair == y.pair;
+  };
+  const auto input = [](const Input& x, const Input& y) {
+    return x.state == y.state && x.coordinate == y.coordinate && x.value == y.value;
+  };
+  return std::equal(a.blocks.begin(), a.blocks.end(), b.blocks.begin(), b.blocks.end(), block) &&
+         std::equal(a.inputs.begin(), a.inputs.end(), b.inputs.begin(), b.inputs.end(), input);
+}
+
 /// The method that the run begins with, and what it calls.
 std::string of_method(const Start& start) {
   const SolverOptions& options = start.scene.solver;
@@ -100,6 +114,8 @@ std::string of_method(const Start& start) {
 std::string alone_because(const Start& start) {
   const system::System& s = start.system;
   const SolverOptions& options = start.scene.solver;
+  if (!s.has_waves())
+    return "it has no waves";
   if (!start.scene.controllers.empty())
     return "it has controllers";
   if (!s.switches.empty())
@@ -151,7 +167,7 @@ std::string apart_because(const Start& one, const Start& other) {
     return "they differ in the rows of their joints";
   const system::HydroData &h = a.hydro, &k = b.hydro;
   const bool water = h.axes == k.axes && h.added_mass == k.added_mass && h.output == k.output &&
-                     h.damping == k.damping && h.n_states == k.n_states &&
+                     h.damping == k.damping && h.n_states == k.n_states && same_memory(h, k) &&
                      std::equal(h.bodies.begin(), h.bodies.end(), k.bodies.begin(), k.bodies.end(),
                                 [](const auto& x, const auto& y) {
                                   return x.yaw == y.yaw && x.moving == y.moving;
@@ -159,9 +175,11 @@ std::string apart_because(const Start& one, const Start& other) {
   if (const std::string why = differ(water, "the water"); !why.empty())
     return why;
   const SolverOptions &m = one.scene.solver, &n = other.scene.solver;
-  if (const std::string why = differ(m.end_time == n.end_time && m.rtol == n.rtol &&
-                                         m.step == n.step && m.max_step == n.max_step,
-                                     "[solver]");
+  if (const std::string why = differ(
+          m.end_time == n.end_time && m.rtol == n.rtol && m.step == n.step &&
+              m.max_step == n.max_step && m.energy_guard == n.energy_guard &&
+              m.branch_guard == n.branch_guard && m.tolerance_assembly == n.tolerance_assembly,
+          "[solver]");
       !why.empty())
     return why;
   return differ(one.scene.sea.ramp == other.scene.sea.ramp &&

@@ -45,7 +45,8 @@ public:
     if (project_)
       saddle_.emplace(e_);
     // The first step leaves rounding of the multipliers, eps / h, below the tolerance.
-    state_.h = fixed_ ? options.step : std::min(max_step_, 3.0 * e_.first_step(y, yp));
+    state_.h = fixed_ ? options.step
+                      : std::min(max_step_, 3.0 * linalg::first_step(system, options.rtol, y, yp));
     state_.reach = t0 + state_.h;
     e_.accept(now_.t, now_.y, now_.yp);
   }

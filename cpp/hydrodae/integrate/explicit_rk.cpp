@@ -8,6 +8,7 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/integrate/dormand_prince_5.h"
 #include "hydrodae/integrate/dormand_prince_8.h"
+#include "hydrodae/integrate/explicit_steps.h"
 #include "hydrodae/integrate/stiffness.h"
 #include "hydrodae/linalg/saddle_point.h"
 #include "hydrodae/system/mechanisms.h"
@@ -44,9 +45,9 @@ public:
     y0_ = stage_ = stage_yp_ = trial_ = trial_yp_ = inside_ = inside_yp_ = y_;
     // A growth of the rounding error by 1e3 at most: the step is not the smallest that the method
     // could make, as it is for one of order 1.
-    state_.h = fixed_
-                   ? options.step
-                   : std::min(max_step_, e_.first_step(y, yp) * std::pow(options.rtol, 0.2 - 0.5));
+    state_.h = fixed_ ? options.step
+                      : std::min(max_step_, linalg::first_step(system, options.rtol, y, yp) *
+                                                std::pow(options.rtol, 0.2 - 0.5));
     if (!saddle_.accelerations(t_, y_, yp_))
       throw SolverError(t_, {Reason::not_finite, "no finite accelerations at the start"});
   }
@@ -63,9 +64,7 @@ public:
   double stage(std::size_t i, VectorX& y, VectorX& yp) override;
   linalg::Statistics statistics() const override { return e_.statistics; }
   int quadrature_nodes() const override { return pair_.order == 5 ? 4 : 6; }
-  /// Larger than it is between stages: in steps beyond a third of a wave the estimated errors are a
-  /// hundred times too large.
-  double gap() const override { return fixed_ ? 1.0 : 0.48; }
+  double gap() const override { return fixed_ ? 1.0 : ExplicitSteps::gap; }
   Memory state() const override {
     return ExplicitState{state_.h,
                          state_.last_error,
@@ -81,8 +80,6 @@ public:
   }
 
 private:
-  static constexpr double safety = 0.9, least_growth = 0.2, most_growth = 6.0; ///< of the step
-
   /// Power of the error that bounds the next step.
   double power() const { return 1.0 / (pair_.order == 5 ? 5.0 : 8.0); }
   void set_stage(const VectorX& start, double h, int stages, std::span<const double> a);
@@ -92,7 +89,6 @@ private:
   double error(double h);
   bool is_smooth(double h);
   double longest_at_rest(double err);
-  double growth(double err, double most);
   void accept(double h, double t);
   void extend();
   void follow_polynomial(double x);
@@ -182,21 +178,13 @@ double ExplicitRk::error(double h) {
 
 /// Do the accelerations at the end of the step agree with those of the last stage, which lies there
 /// as well? The estimate of order 8 knows the first alone: a stop that the stages miss and the end
-/// hits would not be seen. They differ by little more than in the steps before where all is smooth;
-/// what is allowed was found on pendulums, linkages and floating bodies: 34 times the common at
-/// most.
+/// hits would not be seen.
 bool ExplicitRk::is_smooth(double h) {
-  constexpr double allowed = 100.0, least = 3.0, memory = 0.8;
   if (pair_.order == 5)
     return true; // its estimate knows the end
   stage_.setZero();
   stage_.head(n_) = h * (k_.col(pair_.stages) - k_.col(pair_.stages - 1));
-  const double jump = std::max(e_.norm(w_, stage_), least);
-  const double common = std::max(state_.usual_jump, least);
-  if (!(jump <= allowed * common))
-    return false;
-  state_.usual_jump = std::pow(common, memory) * std::pow(jump, 1.0 - memory);
-  return true;
+  return ExplicitSteps::is_usual(e_.norm(w_, stage_), state_.usual_jump);
 }
 
 /// Where nothing moves no error bounds the steps, and beyond the stability of the method they make
@@ -213,16 +201,6 @@ double ExplicitRk::longest_at_rest(double err) {
     rest_step_ = rate > 0.0 ? (pair_.order == 5 ? 2.5 : 5.0) / rate : HUGE_VAL;
   }
   return rest_step_;
-}
-
-/// Growth of the next step by proportional-integral control (Gustafsson 1991).
-double ExplicitRk::growth(double err, double most) {
-  const double e = std::max(err, 1e-10);
-  const double grow =
-      std::clamp(safety * std::pow(e, -0.7 * power()) * std::pow(state_.last_error, 0.3 * power()),
-                 least_growth, most);
-  state_.last_error = std::max(e, 1e-4);
-  return grow;
 }
 
 /// The step of length h to the time t ends in trial_.
@@ -271,13 +249,16 @@ double ExplicitRk::step(double end, double bound) {
       continue;
     }
     if (const bool rough = good && !fixed_ && !is_smooth(h); !good || rough) {
-      const double kept = std::isfinite(err) ? safety * std::pow(err, -power()) : least_growth;
-      shorten(e_.statistics.error_test_failures, rough ? 0.25 : std::max(least_growth, kept));
+      const double kept = std::isfinite(err) ? ExplicitSteps::safety * std::pow(err, -power())
+                                             : ExplicitSteps::least_growth;
+      shorten(e_.statistics.error_test_failures,
+              rough ? 0.25 : std::max(ExplicitSteps::least_growth, kept));
       continue;
     }
     accept(h, h == left ? end : t_ + h);
     if (!fixed_) {
-      state_.h = h * growth(err, failed ? 1.0 : most_growth);
+      state_.h = h * ExplicitSteps::growth(err, power(), failed ? 1.0 : ExplicitSteps::most_growth,
+                                           state_.last_error);
       if (h == left) // a step that was cut says nothing against longer ones
         state_.h = std::max(state_.h, wanted);
       state_.h = std::min({state_.h, max_step_, longest_at_rest(err)});

@@ -251,7 +251,8 @@ void Ida::start(const SolverOptions& options, const VectorX& y0, const VectorX& 
     check(IDASetMaxStep(ida, options.max_step), "IDASetMaxStep");
   if (options.max_step > 0.0)
     longest = options.max_step;
-  first = std::min({equations.first_step(y0, yp0), end_time - t_, longest});
+  first = std::min(
+      {linalg::first_step(equations.system, equations.rtol, y0, yp0), end_time - t_, longest});
   check(IDASetInitStep(ida, first), "IDASetInitStep");
   matrix.reset(made(make_ida_matrix(context.get()), "SUNMatNewEmpty"));
   linear_solver.reset(made(make_ida_solver(newton, context.get()), "SUNLinSolNewEmpty"));
@@ -312,7 +313,8 @@ void Ida::begin_anew(const VectorX& y0, const VectorX& yp0) {
   std::copy(y0.begin(), y0.end(), N_VGetArrayPointer(y.get()));
   std::copy(yp0.begin(), yp0.end(), N_VGetArrayPointer(yp.get()));
   before += counts();
-  first = std::min({equations.first_step(y0, yp0), end_time - t_, longest});
+  first = std::min(
+      {linalg::first_step(equations.system, equations.rtol, y0, yp0), end_time - t_, longest});
   check(IDAReInit(memory.get(), t_, y.get(), yp.get()), "IDAReInit");
   check(IDASetInitStep(memory.get(), first), "IDASetInitStep");
 }

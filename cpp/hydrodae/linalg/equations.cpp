@@ -136,7 +136,7 @@ double Equations::norm(const VectorX& w, const VectorX& e) const {
   return largest_by_group(system, squares_.data(), sums_);
 }
 
-double Equations::first_step(const VectorX& y, const VectorX& yp) const {
+double first_step(const system::Regime& system, double rtol, const VectorX& y, const VectorX& yp) {
   double time = INFINITY;
   for (const system::BodyData& b : system.bodies)
     for (int k = 0; k < b.n_active; ++k) {

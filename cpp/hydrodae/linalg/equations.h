@@ -57,10 +57,6 @@ public:
   /// bodies, of the group where it is largest: none hides behind the number of the others.
   double norm(const VectorX& w, const VectorX& e) const;
 
-  /// First step [s]: short enough for order 1 to meet the tolerance, sqrt(tolerance) of the
-  /// shortest time in which a body moves, or speeds up by, its own scale.
-  double first_step(const VectorX& y, const VectorX& yp) const;
-
   /// Longest time scale of the bodies [s].
   double time_scale() const;
 
@@ -78,6 +74,10 @@ private:
   system::Workspace<double> workspace_;
   system::JacobianWorkspace jacobian_workspace_;
 };
+
+/// First step [s]: short enough for order 1 to meet the tolerance, sqrt(tolerance) of the
+/// shortest time in which a body moves, or speeds up by, its own scale.
+double first_step(const system::Regime& system, double rtol, const VectorX& y, const VectorX& yp);
 
 /// Square root of the mean of `squares` (lambda0,) over the group where it is largest; `sums` is
 /// scratch.

@@ -11,10 +11,8 @@ namespace hydrodae::linalg {
 
 namespace {
 
-constexpr int projections = 8;
 constexpr double rough = 1e-6;  ///< residual of a step of a projection, which the next step mends
 constexpr double longest = 1e4; ///< way that closes a gap, relative to the gap
-constexpr double moving = 1e-8; ///< rates of the gaps likewise: more means that the loop is locked
 
 } // namespace
 
@@ -119,12 +117,12 @@ bool SaddlePoint::project(double t, VectorX& y, double accuracy) {
     if (!e_.constraint_residual(t, y, yp0_, residual_))
       return false;
     const double gap = gaps();
-    if (gap <= accuracy || (i > 0 && gap >= 0.5 * before && gap < 1e-10))
+    if (gap <= accuracy || (i > 0 && gap >= 0.5 * before && gap < stalled))
       break;
     if (i > 1 && gap > 2.0 * before)
       return false;
     before = gap;
-    if (i + 1 == projections && gap > 1e-9)
+    if (i + 1 == projections && gap > open)
       return false;
     matrix_.solve(rhs_, x_, rough);
     system::retract(s_, x_.head(s_.n_u), y);

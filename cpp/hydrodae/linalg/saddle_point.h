@@ -17,7 +17,12 @@ namespace hydrodae::linalg {
 
 class SaddlePoint {
 public:
-  static constexpr double closed = 1e-13; ///< gaps, in units of their scale
+  // Of `project`, gaps and rates in units of their scale:
+  static constexpr int projections = 8;
+  static constexpr double closed = 1e-13;  ///< gaps that need no further step
+  static constexpr double stalled = 1e-10; ///< below it, gaps that no longer halve are rounding
+  static constexpr double open = 1e-9;     ///< gaps that mean failure
+  static constexpr double moving = 1e-8;   ///< rates likewise: the loop is locked
 
   explicit SaddlePoint(Equations& equations);
   ~SaddlePoint();

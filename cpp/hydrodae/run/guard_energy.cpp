@@ -39,7 +39,7 @@ double guard_at_singular_poses(const SolverOptions& options) {
 class EnergyGuard final : public Follower {
 public:
   explicit EnergyGuard(const GuardInputs& in)
-      : s_(in.system), rtol_(in.options.rtol), part_(in.options.energy_guard.value_or(usual)),
+      : s_(in.system), rtol_(in.options.rtol), part_(allowed_energy(in.options)),
         at_singular_(in.options.energy_guard ? part_ : guard_at_singular_poses(in.options)),
         guided_(system::guided_mechanisms(in.system)), poses_(in.poses) {}
 
@@ -155,9 +155,11 @@ double energy_of_errors(const system::Regime& s, double rtol, int mechanism) {
   return out;
 }
 
+double allowed_energy(const SolverOptions& options) { return options.energy_guard.value_or(usual); }
+
 /// A part of zero switches it off.
 std::unique_ptr<Follower> make_energy_guard(const GuardInputs& in) {
-  if (in.options.energy_guard == 0.0)
+  if (allowed_energy(in.options) == 0.0)
     return nullptr;
   return std::make_unique<EnergyGuard>(in);
 }

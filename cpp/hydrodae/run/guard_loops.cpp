@@ -90,7 +90,7 @@ private:
 /// In a singular pose of a closed loop the motion may jump to another branch: the velocities change
 /// at once, though nothing strikes. Measured: 0.6 to 3 of the largest kinetic energy of a mechanism
 /// within 0.003 time scales on a wrong branch, below 0.01 otherwise.
-class BranchGuard final : public Follower {
+class BranchGuard final : public EndGuard {
 public:
   explicit BranchGuard(const system::Regime& s)
       : s_(s), mass_(s.n_u), mechanism_(static_cast<std::size_t>(s.n_u)) {
@@ -106,7 +106,7 @@ public:
     state_.largest = energies(s_.scale.segment(s_.u0, s_.n_u)); // a start from rest is no jump
   }
 
-  void judge(const Step& step) override {
+  void look(const StepEnd& step) override {
     const double t = step.end;
     const VectorX u = step.y.segment(s_.u0, s_.n_u);
     while (state_.past.size() > 1 && state_.past[1].first <= t - window_)
@@ -138,7 +138,7 @@ private:
     return out;
   }
 
-  [[noreturn]] void fail(const Step& step, double jump) const {
+  [[noreturn]] void fail(const StepEnd& step, double jump) const {
     throw SolverError(
         step.end,
         {Reason::branch,
@@ -173,10 +173,11 @@ std::unique_ptr<Follower> make_drift_guard(const GuardInputs& in) {
 }
 
 /// Only scenes with loops have singular poses to fear.
-std::unique_ptr<Follower> make_branch_guard(const GuardInputs& in) {
-  if (!in.options.branch_guard || !has_loop(in.system))
+std::unique_ptr<EndGuard> make_branch_guard(const system::Regime& system,
+                                            const SolverOptions& options) {
+  if (!options.branch_guard || !has_loop(system))
     return nullptr;
-  return std::make_unique<BranchGuard>(in.system);
+  return std::make_unique<BranchGuard>(system);
 }
 
 } // namespace hydrodae::run

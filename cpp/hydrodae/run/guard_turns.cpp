@@ -18,13 +18,13 @@ namespace {
 constexpr double borne = 100.0; ///< tolerances; a sound error test bears some
 
 /// Ends the run where a load follows such a vector and there is no axis.
-class TurnGuard final : public Follower {
+class TurnGuard final : public EndGuard {
 public:
   TurnGuard(const system::Regime& s, double rtol)
       : s_(s), allowed_(borne * rtol), ws_(s), axes_(3 * s.system.rotations.size(), 0.0) {}
 
-  void judge(const Step& step) override {
-    const system::Turns& turns = step.measure.turns();
+  void look(const StepEnd& step) override {
+    const system::Turns& turns = step.turns;
     std::vector<bool> lost(s_.system.rotations.size());
     bool any = false;
     for (std::size_t r = 0; r < lost.size(); ++r)
@@ -33,7 +33,7 @@ public:
                  Eigen::Map<Vector3>(axes_.data() + 3 * r))) ||
             any;
     if (any)
-      judge(step, turns, lost);
+      find(step, turns, lost);
   }
   void save(State& out) const override { out.guards.axes = axes_; }
   void set(const State& from) override { axes_ = from.guards.axes; }
@@ -50,7 +50,7 @@ private:
     return least.cross(axis).norm() > allowed_;
   }
 
-  void judge(const Step& step, const system::Turns& turns, const std::vector<bool>& lost) {
+  void find(const StepEnd& step, const system::Turns& turns, const std::vector<bool>& lost) {
     ws_.turns = turns;
     ws_.time = step.end;
     system::unpack<double>(s_, step.y.data(), step.yp.data(), ws_.bodies);
@@ -63,7 +63,7 @@ private:
   }
 
   /// Does the load of this law change with the rotation?
-  bool feels_rotation(const system::ElementList& list, std::size_t law, const Step& step) {
+  bool feels_rotation(const system::ElementList& list, std::size_t law, const StepEnd& step) {
     const element::Elements& laws = *list.laws;
     system::ElementScratch<double>& scratch = ws_.elements[system::index_of(s_, list)];
     system::gather<double>(s_, list, ws_, step.y.data(), scratch);
@@ -104,11 +104,12 @@ private:
 
 } // namespace
 
-std::unique_ptr<Follower> make_turn_guard(const GuardInputs& in) {
-  for (const system::ElementList& list : in.system.elements)
+std::unique_ptr<EndGuard> make_turn_guard(const system::Regime& system,
+                                          const SolverOptions& options) {
+  for (const system::ElementList& list : system.elements)
     for (const system::PortData& port : list.ports)
       if (port.followed >= 0)
-        return std::make_unique<TurnGuard>(in.system, in.options.rtol);
+        return std::make_unique<TurnGuard>(system, options.rtol);
   return nullptr;
 }
 

@@ -15,14 +15,14 @@ namespace hydrodae::run {
 namespace {
 
 /// Constraint rows that the assembly left out: their gaps prove whether they follow from others.
-class DroppedRowsGuard final : public Follower {
+class DroppedRowsGuard final : public EndGuard {
 public:
   DroppedRowsGuard(const system::Regime& s, const SolverOptions& options)
       : rows_(s), allowed_(10.0 * options.tolerance_assembly +
                            (s.formulation == system::Formulation::stabilised ? 100.0 * options.rtol
                                                                              : drifted)) {}
   bool empty() const { return rows_.empty(); }
-  void judge(const Step& step) override {
+  void look(const StepEnd& step) override {
     const system::DroppedRows::Gap worst = rows_.largest(step.end, step.y);
     if (worst.part <= allowed_)
       return;
@@ -51,7 +51,7 @@ private:
 /// Positions so large that their rounding hides what the tolerance asks for: steps shrink there
 /// without end, and no shorter one is better. It is held against the sizes of the bodies, since the
 /// scale of what has not moved yet is next to nothing.
-class RoundingGuard final : public Follower {
+class RoundingGuard final : public EndGuard {
 public:
   RoundingGuard(const system::Regime& s, double rtol)
       : s_(s), size_(VectorX::Constant(s.lambda0, INFINITY)) {
@@ -67,7 +67,7 @@ public:
                                  size_.segment<3>(place).setConstant(times * length);
                                });
   }
-  void judge(const Step& step) override {
+  void look(const StepEnd& step) override {
     Index i = 0;
     const double worst = step.y.head(s_.lambda0).cwiseAbs().cwiseQuotient(size_).maxCoeff(&i);
     if (worst <= 1.0)
@@ -120,18 +120,20 @@ private:
   VectorX y_, yp_;
 };
 
-std::unique_ptr<Follower> make_dropped_rows_guard(const GuardInputs& in) {
-  auto guard = std::make_unique<DroppedRowsGuard>(in.system, in.options);
+std::unique_ptr<EndGuard> make_dropped_rows_guard(const system::Regime& system,
+                                                  const SolverOptions& options) {
+  auto guard = std::make_unique<DroppedRowsGuard>(system, options);
   if (guard->empty())
     return nullptr;
   return guard;
 }
 
 /// Steps of a fixed length do not shrink.
-std::unique_ptr<Follower> make_rounding_guard(const GuardInputs& in) {
-  if (in.options.step > 0.0 || in.system.lambda0 == 0)
+std::unique_ptr<EndGuard> make_rounding_guard(const system::Regime& system,
+                                              const SolverOptions& options) {
+  if (options.step > 0.0 || system.lambda0 == 0)
     return nullptr;
-  return std::make_unique<RoundingGuard>(in.system, in.options.rtol);
+  return std::make_unique<RoundingGuard>(system, options.rtol);
 }
 
 std::unique_ptr<Follower> make_jam_guard(const GuardInputs& in) {
@@ -152,14 +154,30 @@ std::string largest_reactions(const system::Regime& s, const VectorX& y) {
   return "\n  largest reactions, relative to the weights: " + linalg::worst(values, s.names);
 }
 
+std::vector<std::unique_ptr<EndGuard>> make_end_guards(const system::Regime& system,
+                                                       const SolverOptions& options) {
+  std::vector<std::unique_ptr<EndGuard>> out;
+  for (const auto make :
+       {make_rounding_guard, make_dropped_rows_guard, make_branch_guard, make_turn_guard})
+    if (std::unique_ptr<EndGuard> guard = make(system, options))
+      out.push_back(std::move(guard));
+  return out;
+}
+
 Guards::Guards(const system::Regime& system, const system::Pattern& pattern,
                const SolverOptions& options, const VectorX& y)
     : poses_(system, options, y,
              energy_minds_singular_poses(options) || minds_drift(system, options)) {
-  for (const auto make : {make_energy_guard, make_rounding_guard, make_dropped_rows_guard,
-                          make_branch_guard, make_drift_guard, make_jam_guard, make_turn_guard})
-    if (std::unique_ptr<Follower> guard = make({system, pattern, options, poses_}))
+  const GuardInputs in{system, pattern, options, poses_};
+  const auto add = [this](std::unique_ptr<Follower> guard) {
+    if (guard)
       list_.push_back(std::move(guard));
+  };
+  add(make_energy_guard(in));
+  for (std::unique_ptr<EndGuard>& guard : make_end_guards(system, options))
+    add(std::move(guard));
+  add(make_drift_guard(in));
+  add(make_jam_guard(in));
 }
 
 void Guards::judge(const Step& step) {

@@ -24,6 +24,22 @@ struct GuardStates {
   std::vector<double> axes; ///< of each rotation where it was last within half a turn; zero: none
 };
 
+/// A guard that needs the ends of the steps alone: of a run in a march of several, too.
+class EndGuard : public Follower {
+public:
+  void judge(const Step& step) final { look(step); }
+
+  /// Throws SolverError where the step is proved wrong.
+  virtual void look(const StepEnd& end) = 0;
+};
+
+/// The guards of this kind that the options ask for. All arguments outlive the guards.
+std::vector<std::unique_ptr<EndGuard>> make_end_guards(const system::Regime& system,
+                                                       const SolverOptions& options);
+
+/// Part of the energy exchanged that may be missing; 0: the energy is not judged.
+double allowed_energy(const SolverOptions& options);
+
 /// All guards that the options ask for. Each ends a run only on proof of failure: energy made or
 /// lost, positions whose rounding hides the tolerance, velocities that jump, constraints that
 /// drift, friction that leaves no accelerations, rotation vectors that lose their meaning.
@@ -58,9 +74,11 @@ struct GuardInputs {
 
 // Functions that make a guard. Null: it has nothing to look at in this scene.
 std::unique_ptr<Follower> make_energy_guard(const GuardInputs& in);
-std::unique_ptr<Follower> make_branch_guard(const GuardInputs& in);
 std::unique_ptr<Follower> make_drift_guard(const GuardInputs& in);
-std::unique_ptr<Follower> make_turn_guard(const GuardInputs& in);
+std::unique_ptr<EndGuard> make_branch_guard(const system::Regime& system,
+                                            const SolverOptions& options);
+std::unique_ptr<EndGuard> make_turn_guard(const system::Regime& system,
+                                          const SolverOptions& options);
 
 /// Does the energy guard allow less at singular poses of closed loops than elsewhere?
 bool energy_minds_singular_poses(const SolverOptions& options);

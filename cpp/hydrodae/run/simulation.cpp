@@ -182,8 +182,11 @@ Step Simulation::make_step(double end) {
 }
 
 Step Simulation::step(bool event, bool own) {
-  return {course_.step_start, now_.t,           event, now_.y, now_.yp, integrator(),
-          measure_,           methods().more(), own};
+  return {{course_.step_start, now_.t, event, now_.y, now_.yp, measure_.turns()},
+          integrator(),
+          measure_,
+          methods().more(),
+          own};
 }
 
 double Simulation::bound_of_step() {

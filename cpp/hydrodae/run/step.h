@@ -10,12 +10,17 @@ namespace hydrodae::run {
 
 struct State;
 
-/// The step that was made last.
-struct Step {
+/// The end of the step that was made last.
+struct StepEnd {
   double start = 0.0, end = 0.0; ///< [s]
-  bool event = false;            ///< rows of the system come or go at its end
-  const VectorX& y;              ///< at its end; after an event those that go on from there
+  bool event = false;            ///< rows of the system come or go at the end
+  const VectorX& y;              ///< at the end; after an event those that go on from there
   const VectorX& yp;
+  const system::Turns& turns; ///< of the angles at the end
+};
+
+/// The whole step.
+struct Step : StepEnd {
   integrate::Integrator& integrator; ///< gives y, y' inside the step
   const measure::Measure& measure;
   bool may_change = false; ///< another method can make the step again
