@@ -6,19 +6,6 @@
 
 namespace hydrodae::ensemble {
 
-namespace {
-
-const LaneKernels& kernels = lane_kernels();
-
-/// sum_k a_k b_k
-Lanes dot(const Lanes* a, const Lanes* b, Index n) {
-  Lanes out;
-  kernels.dot(a, b, n, &out);
-  return out;
-}
-
-} // namespace
-
 void LaneCholesky::resize(Index n) {
   n_ = n;
   entries_.assign(static_cast<std::size_t>(n * n), Lanes(0.0));
@@ -32,7 +19,7 @@ void LaneCholesky::factorise(double least, std::array<bool, width>& sound) {
     Index j = 0;
     for (; j + 4 <= i; j += 4) {
       const Lanes* const rows[4] = {row(j), row(j + 1), row(j + 2), row(j + 3)};
-      kernels.dots(a, rows, j, sums);
+      lane_kernels().dots(a, rows, j, sums);
       for (Index k = 0; k < 4; ++k) {
         for (Index m = 0; m < k; ++m)
           sums[k] += a[j + m] * rows[k][j + m];
@@ -63,7 +50,7 @@ void LaneCholesky::solve_forward(Lanes* const* x, Index from) const {
   Lanes sums[4];
   for (Index i = from; i < n_; ++i) {
     const Lanes* const vectors[4] = {x[0] + from, x[1] + from, x[2] + from, x[3] + from};
-    kernels.dots(row(i) + from, vectors, i - from, sums);
+    lane_kernels().dots(row(i) + from, vectors, i - from, sums);
     for (int k = 0; k < 4; ++k)
       x[k][i] = (x[k][i] - sums[k]) * reciprocal_[static_cast<std::size_t>(i)];
   }

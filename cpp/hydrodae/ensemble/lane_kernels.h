@@ -15,4 +15,11 @@ struct LaneKernels {
 
 const LaneKernels& lane_kernels();
 
+/// sum_k a_k b_k
+inline Lanes dot(const Lanes* a, const Lanes* b, Index n) {
+  Lanes out;
+  lane_kernels().dot(a, b, n, &out);
+  return out;
+}
+
 } // namespace hydrodae::ensemble

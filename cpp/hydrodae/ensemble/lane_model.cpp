@@ -15,15 +15,6 @@ namespace {
 /// the reactions an error of 2e-8. A run alone refines such solutions.
 constexpr double regular = 1e-8;
 
-const LaneKernels& kernels = lane_kernels();
-
-/// sum_k a_k b_k
-Lanes dot(const Lanes* a, const Lanes* b, Index n) {
-  Lanes out;
-  kernels.dot(a, b, n, &out);
-  return out;
-}
-
 } // namespace
 
 LaneModel::Run::Run(const system::Regime& regime)
@@ -452,7 +443,7 @@ void LaneModel::factorise_rows() {
         const Lanes* vectors[4];
         for (std::size_t k = 0; k < 4; ++k)
           vectors[k] = cluster.part(rows_, j + k).w.data() + a.from;
-        kernels.dots(a.w.data() + a.from, vectors, n - a.from, sums);
+        lane_kernels().dots(a.w.data() + a.from, vectors, n - a.from, sums);
         for (std::size_t k = 0; k < 4; ++k)
           schur_.at(cluster.rows[i].row, cluster.rows[j + k].row) += sums[k];
       }

@@ -195,7 +195,7 @@ def read_rows(path: Path, columns: Columns) -> Rows:
     Raises
     ------
     DatabaseError
-        A line other than the first is not of that form, or there is none.
+        The file has no line, or a line after the first is not of that form.
     """
     most = columns.waves + columns.headings + columns.modes + columns.values
     least, meaning = most - columns.optional, columns.meaning

@@ -52,8 +52,8 @@ def dataset(study: Study, rows: Mapping[str, Row], attributes: Mapping[str, Any]
     }
     alone = Counter(row["alone"].splitlines()[0] for row in ordered if "alone" in row)
     if alone:
-        told = [f"{n} {reason}" for reason, n in alone.most_common()]
-        attributes = {**attributes, "run_alone": "\n".join(told)}
+        lines = [f"{n} {reason}" for reason, n in alone.most_common()]
+        attributes = {**attributes, "run_alone": "\n".join(lines)}
     for name in ("status", "reason"):
         text = np.array([row[name] for row in ordered], dtype=str).reshape(shape)
         variables[name] = (dimensions, text)
@@ -174,8 +174,8 @@ def text(results: xr.Dataset) -> str:
     lines = [", ".join(f"{n} {word}" for word, n in zip(status, count, strict=True))]
     for reason in sorted(set(results["reason"].to_numpy().ravel()) - {""})[:5]:
         lines.append(f"  {str(reason).splitlines()[0]}")
-    for told in results.attrs.get("run_alone", "").splitlines()[:5]:
-        number, _, reason = told.partition(" ")
+    for line in results.attrs.get("run_alone", "").splitlines()[:5]:
+        number, _, reason = line.partition(" ")
         lines.append(f"{number} of them not side by side with others: {reason}")
     for name in ("mean_power_absorbed_mean", "mean_power_absorbed"):
         if name in results:
