@@ -98,7 +98,8 @@ name = "crank"
     ("keys", "place", "key", "fault"),
     [
         (
-            'type = "coordinate"\njoint = "hinge"\ncoordinate = "angel"\ndrive = { amplitude = 0.1, period = 5.0 }',
+            'type = "coordinate"\njoint = "hinge"\ncoordinate = "angel"\n'
+            "drive = { amplitude = 0.1, period = 5.0 }",
             "24:1",
             "coordinate",
             "constraint 'crank': coordinate = 'angel' is no motion of joint 'hinge'; did you mean "

@@ -198,6 +198,18 @@ def test_a_single_garbled_force_is_told(sphere_tables):
     assert found.severity == "info"
 
 
+def test_an_irregular_frequency_of_three_values_is_told(sphere_tables):
+    """It is no single value: a narrow resonance of the water inside."""
+    sphere = sphere_tables
+    at, heave = int(np.abs(sphere.omega - 1.0).argmin()), sphere.index("sphere.heave")[0]
+    force = sphere.diffraction.copy()
+    resonance = np.array([0.15, 0.3, -0.15]) * np.abs(sphere.excitation[:, 0, heave]).max()
+    force[at - 1 : at + 2, 0, heave] += resonance
+    (found,) = spike_findings(dataclasses.replace(sphere, diffraction=force), (0.3, 2.0))
+    assert found.severity == "warning"
+    assert found.omega == pytest.approx(sphere.omega[at])
+
+
 def test_hydrostatics_of_another_hull_are_told(reference):
     cubes = hdb.read(reference / "hdb" / "cubes_nemoh_v3.0.2")
     assert hull_findings(cubes) == []

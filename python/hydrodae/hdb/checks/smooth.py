@@ -53,7 +53,9 @@ def _place(database: HydroDatabase, body: str) -> Array:
     return database.phase_point(body) if known else np.zeros(3)
 
 
-def alone(omega: Array, values: Complex, size: Array, digit: Array, share: float) -> Array:
+def alone(
+    omega: Array, values: Complex, size: Array, digit: Array, share: float, beside: int = 0
+) -> Array:
     """Distances of values (nw, m) from the cubic through their neighbours, where they are alone.
 
     Parameters
@@ -63,6 +65,9 @@ def alone(omega: Array, values: Complex, size: Array, digit: Array, share: float
         The values, what distances are divided by, and the last digit that each has.
     share : float
         Distances of less are none.
+    beside : int
+        Values on either side that may be off with it: an irregular frequency of the forces reaches
+        those. Those of H have a partner there by causality, and are held to more.
 
     Returns
     -------
@@ -86,17 +91,19 @@ def alone(omega: Array, values: Complex, size: Array, digit: Array, share: float
         if not kept[max(at - 2, 0) : at + 3].all():
             continue  # its distance is that of the one beside it; several together are not alone
         column = int(off[at].argmax())
-        if _is_alone(omega, values[:, column], kept, int(at), abs(distance[at - 2, column])):
+        out = slice(max(at - beside, 0), at + beside + 1)
+        if _is_alone(omega, values[:, column], kept, out, abs(distance[at - 2, column])):
             found[at] = off[at]
             kept[at] = False
     return found
 
 
-def _is_alone(w: Array, values: Complex, kept: NDArray[np.bool_], at: int, off: float) -> bool:
-    """Return whether the neighbours of a value that is `off` are right without it."""
-    others = np.flatnonzero(kept)
-    others = others[others != at]
-    place = int(np.searchsorted(others, at))
+def _is_alone(w: Array, values: Complex, kept: NDArray[np.bool_], out: slice, off: float) -> bool:
+    """Return whether the neighbours of values, one of them `off`, are right without these."""
+    used = kept.copy()
+    used[out] = False
+    others = np.flatnonzero(used)
+    place = int(np.searchsorted(others, out.start))
     near = others[max(place - AROUND - 2, 0) : place + AROUND + 2]
     if near.size < 2 * AROUND:
         return False
@@ -168,7 +175,7 @@ def spike_findings(database: HydroDatabase, band: Band) -> list[Finding]:
     whole = np.broadcast_to(np.where(shown, size, np.inf), force.shape).reshape(w.size, -1)
     digit = last_digit(database.excitation.real) + last_digit(database.excitation.imag)
     digits = np.broadcast_to(digit, force.shape).reshape(w.size, -1)
-    found = alone(w, force.reshape(w.size, -1), whole, digits, SHARE_OF_FORCE)
+    found = alone(w, force.reshape(w.size, -1), whole, digits, SHARE_OF_FORCE, beside=1)
     found = found.reshape(force.shape)
     found[found <= SHARE_OF_FORCE] = 0.0
     if not found.any():
