@@ -171,7 +171,7 @@ def test_leaving_the_headings_stops_the_run(tmp_path: Path) -> None:
         SolverError, match=r'"?float.? has turned to a yaw of .*cover -20 to 45 deg'
     ):
         hydrodae.run(tmp_path / "case.toml")
-    case = hydrodae.Case.read(tmp_path / "case.toml")  # in a march of several it is told, too
+    case = hydrodae.Case.read(tmp_path / "case.toml")  # a march of several stops as well
     for answer in _core.simulate_together([case.scene, case.scene]):
         assert "has turned to a yaw of" in str(answer)
 
