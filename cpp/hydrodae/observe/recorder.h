@@ -3,12 +3,10 @@
 
 #include <span>
 
-#include "hydrodae/core/channel.h"
-#include "hydrodae/measure/measure.h"
+#include "hydrodae/observe/channel_table.h"
 
 namespace hydrodae::observe {
 
-using measure::ComponentLoad, measure::Observation;
 using system::BodyState, system::Regime;
 
 /// Fills rows of the results from what a Measure has summed and its observer sees. It changes
@@ -17,42 +15,39 @@ class Recorder {
 public:
   using Interpolant = measure::Measure::Interpolant;
 
-  Recorder(const Regime& system, measure::Measure& measure);
+  Recorder(const Regime& system, measure::Measure& measure)
+      : measure_(measure), table_(channel_table(system, measure)) {}
 
   /// The columns, in the order of `sample`.
-  const std::vector<Channel>& channels() const { return channels_; }
-  std::size_t width() const { return width_; }
+  const std::vector<Channel>& channels() const { return table_.channels(); }
+  std::size_t width() const { return table_.width(); }
 
   /// Fills one row at time `t` of the step begun (or at the start). Values of all channels one
   /// after the other; length `width()`.
-  void sample(double t, const Interpolant& at, std::span<double> row);
+  void sample(double t, const Interpolant& at, std::span<double> row) {
+    at(t, y_, yp_);
+    fill(t, row);
+  }
 
   /// Fills the row of the end of the last closed step, where y, y' are given.
-  void look(const VectorX& y, const VectorX& yp, std::span<double> row);
+  void look(const VectorX& y, const VectorX& yp, std::span<double> row) {
+    y_ = y;
+    yp_ = yp;
+    fill(measure_.start(), row);
+  }
 
   /// The bodies, and y, at the last sample.
   const std::vector<BodyState<double>>& bodies() const { return measure_.observer().bodies(); }
   const VectorX& state() const { return y_; }
 
 private:
-  void fill(double t, std::span<double> row);
-  const Observation& seen() const { return measure_.observer().observation(); }
-  void make_channels();
-  void check_paths() const;
-  void add_channel(std::string path, int width, std::string unit, std::string frame,
-                   std::string description);
-  void describe_marker(const joint::Marker& marker);
-  void fill_bodies(double*& out);
-  void fill_joints(double*& out);
-  void fill_markers(double*& out);
-  void add_gauges();
-  void fill_gauges(double t, double*& out);
-  void fill_energy(double t, double*& out);
+  void fill(double t, std::span<double> row) {
+    const measure::Observation& seen = measure_.observer().observe(t, y_, yp_);
+    table_.write({t, seen, bodies(), measure_, y_, measure_.work_at(t)}, row.data());
+  }
 
-  const Regime& s_;
   measure::Measure& measure_;
-  std::vector<Channel> channels_;
-  std::size_t width_ = 0;
+  ChannelTable table_;
   VectorX y_, yp_;
 };
 
