@@ -1,17 +1,12 @@
-/// Hydrostatics, added mass and radiation memory of a scene, cut down to the coordinates that move.
+/// Which coordinates of the bodies move in the water; hydrostatics, radiation, and mass of the two.
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
-#include <unordered_map>
 
 #include "hydrodae/build/check_radiation.h"
 #include "hydrodae/build/parts.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
-#include "hydrodae/hydro/coverage.h"
-#include "hydrodae/hydro/frequency.h"
-#include "hydrodae/math/bspline.h"
 #include "hydrodae/math/definite.h"
 #include "hydrodae/model/deformation.h"
 #include "hydrodae/model/motion.h"
@@ -47,146 +42,7 @@ void number_coordinates(const model::Scene& scene, system::System& s) {
   }
 }
 
-/// Does the database of `scene` load this body? Else its columns and rows are zero.
-bool is_wet(const model::Scene& scene, const system::HydroBody& hb) {
-  return scene.bodies[static_cast<std::size_t>(hb.body)].hydro.has_value();
-}
-
-/// Where each coordinate of the bodies (6 n_bodies,) stands among `labels`, -1: nowhere.
-std::vector<int> all_places(const model::Scene& scene, const system::HydroData& h,
-                            const std::vector<std::string>& labels) {
-  std::unordered_map<std::string_view, int> place;
-  for (std::size_t k = 0; k < labels.size(); ++k)
-    place.emplace(labels[k], static_cast<int>(k));
-  std::vector<int> out;
-  for (const system::HydroBody& hb : h.bodies)
-    for (int c = 0; c < 6; ++c) {
-      const auto found = is_wet(scene, hb) ? place.find(hydro_label(scene, hb, c)) : place.end();
-      out.push_back(found == place.end() ? -1 : found->second);
-    }
-  return out;
-}
-
-/// The same for each coordinate of U.
-std::vector<int> places(const model::Scene& scene, const system::HydroData& h,
-                        const std::vector<std::string>& labels) {
-  const std::vector<int> all = all_places(scene, h, labels);
-  std::vector<int> out;
-  for (const system::HydroData::Coordinate& k : h.coordinates)
-    out.push_back(all[static_cast<std::size_t>(6 * k.hydro_body + k.component)]);
-  return out;
-}
-
-/// Rows for all six coordinates of all bodies (zero where the source gives none) and columns for U.
-MatrixX cut(const model::Scene& scene, const system::HydroData& h,
-            const std::vector<std::string>& rows, const std::vector<std::string>& columns,
-            const MatrixX& source) {
-  const std::vector<int> row = all_places(scene, h, rows), column = places(scene, h, columns);
-  MatrixX out = MatrixX::Zero(std::ssize(row), h.n_moving);
-  for (Index u = 0; u < out.cols(); ++u)
-    for (Index i = 0; i < out.rows(); ++i)
-      if (const int r = row[static_cast<std::size_t>(i)], c = column[static_cast<std::size_t>(u)];
-          r >= 0 && c >= 0)
-        out(i, u) = source(r, c);
-  return out;
-}
-
-/// The rows of `all` (6 per body) that belong to U.
-MatrixX moving_rows(const system::HydroData& h, const MatrixX& all) {
-  MatrixX out(h.n_moving, all.cols());
-  for (int u = 0; u < h.n_moving; ++u)
-    out.row(u) = all.row(6 * h.coordinates[u].hydro_body + h.coordinates[u].component);
-  return out;
-}
-
-/// Loads on coordinates that stay, but that nothing in the fit speaks of.
-void note_uncovered(const model::Scene& scene, const std::vector<std::string>& outputs,
-                    system::System& s) {
-  const std::vector<int> place = all_places(scene, s.hydro, outputs);
-  for (std::size_t k = 0; k < place.size(); ++k)
-    if (const system::HydroBody& hb = s.hydro.bodies[k / 6]; place[k] < 0 && is_wet(scene, hb))
-      if (const std::string label = hydro_label(scene, hb, static_cast<int>(k % 6)); !label.empty())
-        s.hydro.uncovered.push_back(label);
-}
-
-/// Real form of the fit: a pole p = a + i b with Im > 0 becomes two states (Re z, Im z); blocks
-/// that nothing drives are left out.
-void add_memory(const model::Scene& scene, const hydro::MemoryFit& fit, system::System& s) {
-  system::HydroData& h = s.hydro;
-  const std::vector<int> input = places(scene, h, fit.inputs);
-  std::vector<int> column; // of `output_all`: block of the fit, twice for a pair
-  for (int k = 0; k < fit.poles.size(); ++k) {
-    const bool pair = fit.poles[k].imag() != 0.0;
-    const int state = h.n_states;
-    bool driven = false;
-    for (int u = 0; u < h.n_moving; ++u) {
-      if (input[static_cast<std::size_t>(u)] < 0)
-        continue;
-      const std::complex<double> b = fit.input_matrix(k, input[static_cast<std::size_t>(u)]);
-      if (b.real() != 0.0)
-        h.inputs.push_back({state, u, b.real()});
-      if (pair && b.imag() != 0.0)
-        h.inputs.push_back({state + 1, u, b.imag()});
-      driven = driven || b != 0.0;
-    }
-    if (!driven)
-      continue;
-    h.blocks.push_back({state, fit.poles[k].real(), fit.poles[k].imag(), pair});
-    h.n_states += pair ? 2 : 1;
-    for (int n = 0; n < (pair ? 2 : 1); ++n)
-      column.push_back(k);
-  }
-  const std::vector<int> row = all_places(scene, h, fit.outputs);
-  h.output_all = MatrixX::Zero(std::ssize(row), h.n_states);
-  for (const system::HydroData::Block& b : h.blocks) // Re(C z) = Re C Re z - Im C Im z
-    for (Index r = 0; r < std::ssize(row); ++r) {
-      if (row[static_cast<std::size_t>(r)] < 0)
-        continue;
-      const std::complex<double> C =
-          fit.output_matrix(row[static_cast<std::size_t>(r)], column[b.state]);
-      h.output_all(r, b.state) = C.real();
-      if (b.pair)
-        h.output_all(r, b.state + 1) = -C.imag();
-    }
-  h.output = moving_rows(h, h.output_all);
-}
-
-/// Damping of each coordinate of U on itself, the largest over the table; zero where it is not
-/// read.
-VectorX largest_damping(const model::Scene& scene, const system::HydroData& h) {
-  VectorX out = VectorX::Zero(h.n_moving);
-  const hydro::Database& db = *scene.database;
-  const std::vector<int> place = places(scene, h, db.coordinates);
-  for (int u = 0; u < h.n_moving; ++u) {
-    const int i = place[static_cast<std::size_t>(u)];
-    for (const MatrixX& B : db.damping)
-      out[u] = i < 0 ? 0.0 : std::max(out[u], std::abs(B(i, i)));
-  }
-  return out;
-}
-
-/// A(w) or B(w) at the frequency of constant radiation.
-MatrixX table_at(const model::Scene& scene, const std::vector<MatrixX>& table) {
-  const hydro::Database& db = *scene.database;
-  const double omega = *scene.hydro->frequency;
-  if (!hydro::covers_frequency(db, omega))
-    throw ModelError("hydro.frequency", "frequency = " + number_text(omega) +
-                                            " rad/s is outside the database, " +
-                                            number_text(db.omega[0]) + " to " +
-                                            number_text(db.omega[db.omega.size() - 1]) + " rad/s");
-  return hydro::at_frequency(db, table, omega);
-}
-
 } // namespace
-
-int label_index(const std::vector<std::string>& labels, const std::string& label) {
-  const auto found = std::find(labels.begin(), labels.end(), label);
-  return found == labels.end() ? -1 : static_cast<int>(found - labels.begin());
-}
-
-std::string hydro_label(const model::Scene& scene, const system::HydroBody& hb, int c) {
-  return model::hydro_label(scene, scene.bodies[hb.body], static_cast<std::size_t>(c));
-}
 
 /// Places of the lower triangle, by columns: of the same body, or coupled by added mass.
 static std::vector<Definite::Place> coupled_places(const system::HydroData& h) {
@@ -233,39 +89,6 @@ void check_mass(const system::System& s) {
     throw ModelError("hydro.database", "mass and added mass of the moving coordinates are not "
                                        "positive definite together: a push somewhere moves the "
                                        "bodies towards the hand");
-}
-
-void add_radiation(const model::Scene& scene, system::System& s) {
-  const hydro::Database& db = *scene.database;
-  system::HydroData& h = s.hydro;
-  if (const hydro::MemoryFit* fit = model::memory_fit(scene)) {
-    h.added_mass_all = cut(scene, h, fit->outputs, fit->inputs, fit->added_mass_inf);
-    add_memory(scene, *fit, s);
-    note_uncovered(scene, fit->outputs, s);
-  } else if (scene.hydro->radiation == "convolution") {
-    const hydro::RadiationKernel& kernel = *db.kernel;
-    h.added_mass_all = cut(scene, h, kernel.outputs, kernel.inputs, kernel.added_mass_inf);
-    h.added_mass = moving_rows(h, h.added_mass_all);
-    h.output = MatrixX::Zero(h.n_moving, 0);
-    h.output_all = MatrixX::Zero(h.added_mass_all.rows(), 0);
-    add_convolution(scene, kernel, s);
-    note_uncovered(scene, kernel.outputs, s);
-  } else {
-    const bool constant = scene.hydro->radiation == "constant";
-    h.added_mass_all = cut(scene, h, db.coordinates, db.coordinates,
-                           constant ? table_at(scene, db.added_mass) : db.added_mass_inf);
-    if (constant) {
-      h.damped = true;
-      h.damping_all = cut(scene, h, db.coordinates, db.coordinates, table_at(scene, db.damping));
-      h.damping = moving_rows(h, h.damping_all);
-    }
-    h.output = MatrixX::Zero(h.n_moving, 0);
-    h.output_all = MatrixX::Zero(h.added_mass_all.rows(), 0);
-    note_uncovered(scene, db.coordinates, s);
-  }
-  h.added_mass = moving_rows(h, h.added_mass_all);
-  h.link();
-  check_radiation(scene, s, largest_damping(scene, h));
 }
 
 void add_hydro(const model::Scene& scene, system::System& s) {

@@ -17,7 +17,7 @@ void set_scale_masses(system::System& system);
 void add_hydro(const model::Scene& scene, system::System& system);
 
 /// Added mass and radiation of the bodies that are wet in `scene`, by its database, into `s.hydro`
-/// (hydro.cpp). Throws ModelError.
+/// (radiation.cpp). Throws ModelError.
 void add_radiation(const model::Scene& scene, system::System& s);
 
 /// Mass and added mass together must be positive (hydro.cpp). Throws ModelError.
@@ -27,13 +27,9 @@ void check_mass(const system::System& s);
 void add_pose_tables(const model::Scene& scene, system::System& s);
 
 /// "float.heave" of coordinate c of a body in the water, as in databases; and where a label stands,
-/// -1: nowhere (hydro.cpp).
+/// -1: nowhere (radiation.cpp).
 std::string hydro_label(const model::Scene& scene, const system::HydroBody& body, int c);
 int label_index(const std::vector<std::string>& labels, const std::string& label);
-
-/// Kernels of the pairs that feel each other, rows that move first (convolution.cpp).
-void add_convolution(const model::Scene& scene, const hydro::RadiationKernel& kernel,
-                     system::System& s);
 
 /// Takes the mean yaws of the hydrodynamic bodies from where they start, and turns the hydrostatics
 /// with them (mean_yaw.cpp).

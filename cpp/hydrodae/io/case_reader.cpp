@@ -204,9 +204,9 @@ read_database(model::Scene& scene, const std::string& directory, const std::stri
   std::shared_ptr<const hydro::Database> out;
   // In waves a fit is held against the tables; symmetry is judged by the damping, too.
   const bool waves = !scene.waves.empty();
-  const std::string& radiation = scene.hydro->radiation;
-  const bool judged = waves && (scene.hydro->axes == "yaw" || radiation == "exponential");
-  const HydroTables tables{waves, judged || radiation == "constant", radiation == "convolution"};
+  const model::RadiationRung& radiation = scene.hydro->rung();
+  const bool judged = waves && (scene.hydro->axes == "yaw" || radiation.fit);
+  const HydroTables tables{waves, judged || radiation.tables, radiation.kernel};
   read_file(scene, directory, key, path, what, [&](const std::string& whole) {
     SharedHydroFile found = shared_hydro_file(whole, tables);
     out = std::move(found.database);

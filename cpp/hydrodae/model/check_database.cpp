@@ -108,12 +108,7 @@ void check_memory_length(const Scene& scene, double length) {
 void check_kernel(const Scene& scene) {
   const HydroOptions& hydro = *scene.hydro;
   const hydro::Database& database = *scene.database;
-  const bool convolution = hydro.radiation == "convolution";
-  if (hydro.memory_length && !convolution)
-    throw ModelError("hydro.memory_length", "'memory_length' belongs to radiation = "
-                                            "\"convolution\"; the radiation is " +
-                                                in_quotes(hydro.radiation));
-  if (!convolution)
+  if (!hydro.rung().kernel)
     return;
   const std::string advice = "; make it with: hydrodae hdb kernel " + database.path + " " +
                              joined(moving_coordinates(scene), ",");
@@ -138,6 +133,22 @@ void check_kernel(const Scene& scene) {
                                                 number_text(least) + " to " + number_text(most) +
                                                 " s");
   check_memory_length(scene, length);
+}
+
+/// A key that belongs to one rung stands beside no other; a key that its rung needs is there.
+void check_rung(const HydroOptions& hydro) {
+  for (const RadiationRung& rung : radiation_rungs) {
+    const std::string key(rung.key), name = "radiation = " + in_quotes(std::string(rung.name));
+    const bool own = &rung == &hydro.rung(),
+               given = (key == "frequency" && hydro.frequency) || (key == "fit" && hydro.fit) ||
+                       (key == "memory_length" && hydro.memory_length);
+    if (given && !own)
+      throw ModelError("hydro." + key, "'" + key + "' belongs to " + name + "; the radiation is " +
+                                           in_quotes(hydro.radiation));
+    if (own && !given && !rung.unit.empty())
+      throw ModelError("hydro.radiation",
+                       name + " needs the key '" + key + "' [" + std::string(rung.unit) + "]");
+  }
 }
 
 } // namespace
@@ -167,6 +178,7 @@ void check_database(const Scene& scene) {
   if (!missing.empty())
     throw ModelError("hydro.database",
                      database.path + " lacks coordinates that move: " + joined(missing));
+  check_rung(*scene.hydro);
   check_kernel(scene);
   const hydro::MemoryFit* fit = memory_fit(scene);
   if (fit && !fit->passive && !scene.solver.force)
@@ -175,13 +187,6 @@ void check_database(const Scene& scene) {
         database.path +
             ": the memory fit is not passive, so that the waves may feed the motion; fit it again "
             "with hydrodae hdb import --fit (solver.force, --force, runs it all the same)");
-  const HydroOptions& hydro = *scene.hydro;
-  if ((hydro.radiation == "constant") != hydro.frequency.has_value())
-    throw ModelError(hydro.frequency ? "hydro.frequency" : "hydro.radiation",
-                     hydro.frequency
-                         ? "'frequency' belongs to radiation = \"constant\"; the radiation is " +
-                               in_quotes(hydro.radiation)
-                         : "radiation = \"constant\" needs the key 'frequency' [rad/s]");
 }
 
 } // namespace hydrodae::model

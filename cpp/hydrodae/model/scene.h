@@ -40,6 +40,7 @@
 #include "hydrodae/model/input_file.h"
 #include "hydrodae/model/mode.h"
 #include "hydrodae/model/pose_table.h"
+#include "hydrodae/model/radiation.h"
 #include "hydrodae/sea/gauge.h"
 #include "hydrodae/sea/wave.h"
 #include "hydrodae/water/morison.h"
@@ -83,6 +84,8 @@ struct HydroOptions {
   std::optional<double> frequency;
   std::optional<double> memory_length;
 
+  const RadiationRung& rung() const { return radiation_rung(radiation); }
+
   template <class H = HydroOptions> static Fields<H> fields() {
     return {
         {"database", &H::database, "-", "Path of hydro.h5, relative to the case file.", true},
@@ -95,14 +98,7 @@ struct HydroOptions {
          false,
          any_value,
          {"mean", "yaw", "body"}},
-        {"radiation",
-         &H::radiation,
-         "-",
-         "Radiation. none: added mass at infinite frequency only. constant: added mass and "
-         "damping at one frequency. exponential: the fitted memory. convolution: the kernel K(t).",
-         false,
-         any_value,
-         {"none", "constant", "exponential", "convolution"}},
+        {"radiation", &H::radiation, "-", radiation_doc(), false, any_value, radiation_words()},
         {"memory_length", &H::memory_length, "s",
          "Length of the kernel of the convolution; by default that of the database.", false,
          more_than(0)},

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hydrodae/build/parts.h"
+#include "hydrodae/build/radiation.h"
 #include "hydrodae/math/bspline.h"
 
 namespace hydrodae::build {
@@ -48,10 +49,12 @@ double kernel_frequency(const system::HydroData& h) {
 
 } // namespace
 
-/// Kernels of the pairs that feel each other, rows that move first.
-void add_convolution(const model::Scene& scene, const hydro::RadiationKernel& kernel,
-                     system::System& s) {
+// Kernels of the pairs that feel each other, rows that move first.
+std::vector<std::string> fill_convolution(const model::Scene& scene, system::System& s) {
   system::HydroData& h = s.hydro;
+  const hydro::RadiationKernel& kernel = *scene.database->kernel;
+  h.added_mass_all = cut(scene, h, kernel.outputs, kernel.inputs, kernel.added_mass_inf);
+  h.added_mass = moving_rows(h, h.added_mass_all);
   system::Convolution& c = h.convolution;
   c.step = kernel.step;
   const double length = scene.hydro->memory_length.value_or(kernel.length());
@@ -92,6 +95,7 @@ void add_convolution(const model::Scene& scene, const hydro::RadiationKernel& ke
   for (std::size_t p = 0; p < splines.size(); ++p)
     c.splines.col(static_cast<Eigen::Index>(p)) = splines[p];
   c.frequency = kernel_frequency(h);
+  return kernel.outputs;
 }
 
 } // namespace hydrodae::build
