@@ -34,7 +34,6 @@ const std::vector<MethodTraits>& methods() {
        .coarse_inside = true,
        .passes_singular_poses = true,
        .projects_rates = true,
-       .bounded_stability = true,
        .marches_lanes = true},
       {.name = "ida",
        .orders = {},

@@ -26,7 +26,6 @@ struct MethodTraits {
   bool passes_singular_poses = false; ///< of closed loops, by measurement (tests/stability)
   bool projects_rates = false;        ///< do its steps meet the rows of the rates exactly?
   bool loose_reactions = false;       ///< does no error test hold the multipliers of its steps?
-  bool bounded_stability = false;     ///< do stiff rates limit its steps?
   bool marches_lanes = false;         ///< can it march several runs side by side (ensemble/)?
 };
 

@@ -58,10 +58,6 @@ void MethodAtWork::change(const MethodChange& change, const Instant& at) {
 }
 
 std::optional<MethodChange> MethodAtWork::cheaper(const Instant& at) {
-  if (const auto change = choice_.labours(at.t))
-    return change;
-  if (const auto change = choice_.returns(at.t))
-    return change;
   if (!choice_.weighs())
     return std::nullopt;
   return choice_.weigh(at.t, operations_of_explicit_step(), [&] {
@@ -76,8 +72,7 @@ void MethodAtWork::judge(const Step& step) {
 
 void MethodAtWork::accept(const Step& step) {
   if (choice_.more())
-    choice_.accept(step.end - step.start, integrate::motion_rate(problem_.regime, step.y), step.own,
-                   operations());
+    choice_.accept(step.end - step.start, operations());
 }
 
 linalg::Statistics MethodAtWork::statistics() const {

@@ -42,7 +42,7 @@ public:
   /// The closing knows on which turn the angles are.
   void judge(const Step& step) override;
 
-  /// Steps that end where something made them end do not count as evidence on the method.
+  /// The step is weighed.
   void accept(const Step& step) override;
 
   linalg::Statistics statistics() const;

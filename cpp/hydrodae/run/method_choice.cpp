@@ -13,9 +13,10 @@ namespace {
 
 constexpr double stiff = 50.0;      ///< fastest rate over that of the motion
 constexpr double long_run = 2000.0; ///< [rad]
-constexpr double short_step = 0.02; ///< [rad]
-constexpr int many = 40;            ///< short steps
 constexpr int weighed = 10;         ///< steps that are weighed together
+constexpr double stability = 5.0;   ///< of a step of order 8: its length times the fastest rate
+constexpr double enough = 1.5;      ///< operations over those promised; counts are this good
+constexpr double look = 500.0;      ///< evaluations between two looks at the fastest rate, of 14
 
 /// Is there anything but joints, weights and constant loads in each group of bodies?
 bool may_damp(const system::Regime& s) {
@@ -62,7 +63,7 @@ MethodOrder order_methods(const SceneTraits& traits) {
   if (!traits.damped && traits.end_time * traits.motion_rate > long_run)
     return {implicit_first, "errors pile up: nothing damps the motion, which goes on for about " +
                                 rounded_text(traits.end_time * traits.motion_rate) + " rad"};
-  return {{"explicit_rk", "radau", "ida"}, "nothing is stiff"};
+  return {{"explicit_rk", "radau", "ida"}, "nothing is stiff", true};
 }
 
 SceneTraits find_traits(const system::Regime& s, const system::Pattern& pattern,
@@ -92,102 +93,151 @@ std::string with_time(const MethodChange& change) {
   return change.method + " at t = " + number_text(change.time) + " s: " + change.reason;
 }
 
-MethodChoice::MethodChoice(std::string method) { order_.methods.push_back(std::move(method)); }
+MethodChoice::MethodChoice(std::string method)
+    : MethodChoice(MethodOrder{{std::move(method)}, ""}) {}
 
-MethodChoice::MethodChoice(MethodOrder order) : order_(std::move(order)) {}
+MethodChoice::MethodChoice(MethodOrder order)
+    : order_(std::move(order)), candidates_(order_.methods) {
+  for (const char* name : {"explicit_rk", "radau"})
+    if (order_.weighs &&
+        std::find(candidates_.begin(), candidates_.end(), name) == candidates_.end())
+      candidates_.emplace_back(name);
+}
+
+bool MethodChoice::is_left(std::size_t k) const {
+  return std::find(state_.given_up.begin(), state_.given_up.end(), k) == state_.given_up.end();
+}
+
+/// The method that follows where this one stops: the first of the order that is left; none: beyond
+/// the candidates.
+std::size_t MethodChoice::follower() const {
+  for (std::size_t k = 0; k < order_.methods.size(); ++k)
+    if (k != state_.at && is_left(k))
+      return k;
+  return candidates_.size();
+}
+
+/// The method that this one is weighed against; none: beyond the candidates.
+std::size_t MethodChoice::rival() const {
+  if (!order_.weighs || (method() != "explicit_rk" && method() != "radau"))
+    return candidates_.size();
+  const char* other = method() == "radau" ? "explicit_rk" : "radau";
+  const auto k = static_cast<std::size_t>(std::find(candidates_.begin(), candidates_.end(), other) -
+                                          candidates_.begin());
+  return is_left(k) ? k : candidates_.size();
+}
+
+void MethodChoice::open_window() {
+  state_.steps = 0;
+  state_.time = 0.0;
+}
 
 void MethodChoice::next(const MethodChange& change) {
+  const std::size_t to = change.cause == MethodChange::Cause::cost ? rival() : follower();
+  if (change.cause != MethodChange::Cause::cost) {
+    state_.given_up.push_back(state_.at);
+    state_.trial = 0;
+  }
   state_.changes.push_back(change);
-  ++state_.at;
-  state_.short_steps = state_.weighed_steps = 0;
-  state_.weighed_time = state_.turn_steps = 0.0;
-  state_.again = state_.turns > 0;
+  state_.changes.back().to = candidates_[to];
+  state_.at = to;
+  open_window();
 }
 
 MethodChange MethodChoice::after(const SolverError& error, MethodChange::Cause cause) const {
-  MethodChange change{cause, method(), error.time, error.halt.what};
+  MethodChange change{cause, method(), error.time, error.halt.what, ""};
   if (more())
     return change;
   Halt halt = error.halt;
   halt.advice.clear(); // it names other methods
   halt.what = "no method of \"auto\" goes on: ";
   for (const MethodChange& c : state_.changes)
-    halt.what += with_time(c) + "; ";
+    if (c.cause != MethodChange::Cause::cost)
+      halt.what += with_time(c) + "; ";
   halt.what += with_time(change);
   throw SolverError(error.time, std::move(halt));
 }
 
-void MethodChoice::accept(double h, double rate, bool own, double operations) {
-  if (own)
-    state_.short_steps = h * rate < short_step ? state_.short_steps + 1 : 0;
-  if (state_.weighed_steps == 0)
-    state_.weighed_from = operations;
+// The first step opens the window: its own operations may hold the start of the method.
+void MethodChoice::accept(double h, double operations) {
+  if (state_.steps == 0)
+    state_.window_from = operations;
   else
-    state_.weighed_time += h;
-  ++state_.weighed_steps;
-  state_.turn_steps += 1.0;
+    state_.time += h;
+  ++state_.steps;
   state_.operations = operations;
 }
 
-std::optional<MethodChange> MethodChoice::labours(double t) const {
-  if (state_.short_steps < many || !more() || takes_turn() ||
-      !method_traits(method()).bounded_stability)
+bool MethodChoice::weighs() const { return state_.steps > weighed && rival() < candidates_.size(); }
+
+/// The reason to leave the method of a trial, if it was dearer.
+std::optional<std::string> MethodChoice::judge_trial(double cost) {
+  if (++state_.trial <= 2) // the first window holds steps that still grow
     return std::nullopt;
-  return MethodChange{MethodChange::Cause::cost, method(), t,
-                      number_text(many) + " steps of " + method() + " in a row were shorter than " +
-                          number_text(short_step) + " rad of the motion"};
+  state_.trial = 0;
+  const double spent = state_.operations - state_.trial_from;
+  if (cost < state_.cost_before) {
+    state_.patience = 10.0;
+    state_.next_look = state_.operations + state_.patience * spent;
+    return std::nullopt;
+  }
+  state_.next_look = state_.operations + state_.patience * spent;
+  state_.patience *= 2.0;
+  return method() + " took " + rounded_text(cost / state_.cost_before) +
+         " times the operations of the method before it";
 }
 
-bool MethodChoice::weighs() const {
-  return order_.may_weigh && state_.at == 2 * state_.turns && state_.weighed_steps > weighed;
+/// The reason to try the other method, if there is one.
+std::optional<std::string> MethodChoice::promise(double of_step,
+                                                 const std::function<double()>& fastest) {
+  const double spent = state_.operations - state_.window_from, mean = state_.time / weighed;
+  if (method() == "radau") {
+    double ratio = spent / (of_step * weighed); // to steps of explicit_rk that are as long
+    if (ratio > enough)
+      ratio = std::min(ratio, spent * stability / (of_step * fastest() * state_.time));
+    if (ratio > enough)
+      return number_text(weighed) + " steps of radau took " + rounded_text(ratio) +
+             " times the operations that explicit_rk needs";
+  } else if (const double reach = mean * fastest(); reach > 0.5 * stability) {
+    return "steps of explicit_rk are " + rounded_text(reach) +
+           " times as long as the fastest motion of the equations, as its stability allows";
+  }
+  return std::nullopt;
 }
 
 std::optional<MethodChange> MethodChoice::weigh(double t, double of_step,
                                                 const std::function<double()>& fastest) {
-  constexpr double enough = 2.0, stable = 5.0; // of a step of order 8, times the fastest rate
-  const double as_many =
-      (state_.operations - state_.weighed_from) / of_step; // steps of explicit_rk
-  double ratio = as_many / weighed;                        // of steps as long
-  if (ratio > enough)
-    ratio = std::min(ratio, as_many * stable / (fastest() * state_.weighed_time));
-  state_.weighed_steps = 0;
-  state_.weighed_time = 0.0;
-  const bool again = state_.again;
-  state_.again = false;
-  if (!(ratio > enough))
+  const double spent = state_.operations - state_.window_from, cost = spent / state_.time;
+  std::optional<std::string> reason;
+  if (state_.trial > 0) {
+    reason = judge_trial(cost);
+  } else if (state_.operations >= state_.next_look) {
+    reason = promise(of_step, fastest);
+    if (reason) {
+      state_.trial = 1;
+      state_.trial_from = state_.operations;
+      state_.cost_before = cost;
+    } else {
+      state_.next_look = state_.operations + look / 13.0 * of_step;
+    }
+  }
+  open_window();
+  if (!reason)
     return std::nullopt;
-  ++state_.turns;
-  state_.turn = again ? 2.0 * state_.turn : 10.0 * as_many;
-  return MethodChange{MethodChange::Cause::cost, method(), t,
-                      number_text(weighed) + " steps of " + method() + " took " +
-                          rounded_text(ratio) + " times the operations that explicit_rk needs"};
-}
-
-/// The order with the turns of explicit_rk behind the first method.
-const std::string& MethodChoice::method(std::size_t at) const {
-  static const std::string other = "explicit_rk";
-  if (at > 2 * state_.turns)
-    return order_.methods[at - 2 * state_.turns];
-  return at % 2 == 1 ? other : order_.methods.front();
-}
-
-std::optional<MethodChange> MethodChoice::returns(double t) const {
-  if (!takes_turn() || state_.turn_steps < state_.turn)
-    return std::nullopt;
-  return MethodChange{MethodChange::Cause::cost, method(), t,
-                      method() + " has made the " + number_text(state_.turn_steps) +
-                          " steps of its turn"};
+  return MethodChange{MethodChange::Cause::cost, method(), t, *reason, ""};
 }
 
 std::vector<MethodChoice::Part> MethodChoice::parts() const {
   std::vector<Part> out{{order_.methods[0], 0.0, order_.reason}};
-  for (std::size_t k = 1; k <= state_.at; ++k)
-    out.push_back({method(k), state_.changes[k - 1].time, in_words(state_.changes[k - 1])});
+  for (const MethodChange& change : state_.changes)
+    out.push_back({change.to, change.time, in_words(change)});
   return out;
 }
 
 void MethodChoice::set(State state) {
-  if (state.at >= size(state.turns) || state.changes.size() < state.at)
+  if (state.at >= candidates_.size() ||
+      std::any_of(state.given_up.begin(), state.given_up.end(),
+                  [&](std::size_t k) { return k >= candidates_.size(); }))
     throw Error("the state is of a run with other methods");
   state_ = std::move(state);
 }

@@ -26,7 +26,7 @@ struct SceneTraits {
 struct MethodOrder {
   std::vector<std::string> methods;
   std::string reason;
-  bool may_weigh = false; ///< may explicit_rk follow the first where it is cheaper?
+  bool weighs = false; ///< do explicit_rk and radau change places where the other is cheaper?
 };
 
 /// The choice, by what the stability map, the attack suite and the charts of tests/ show. radau
@@ -36,9 +36,9 @@ struct MethodOrder {
 ///   it comes radau, then ida.
 /// - Stiff is what is 50 times as fast as the motion: an explicit step, about 6 over the fastest
 ///   rate, is then shorter than a tenth of a radian of the motion, and one of radau takes less.
-///   There explicit_rk also spends energy on what hardly moves. After radau comes ida only. Where
-///   the fast rates come to life, as in a line that snaps taut, radau follows them with short steps
-///   and many iterations: explicit_rk takes over once it is the cheaper one.
+///   There explicit_rk also spends energy on what hardly moves. After radau comes ida only.
+/// - A start does not tell all: memory of waves bounds the steps of explicit_rk, and lines that
+///   snap taut those of radau. In both cases above the two are weighed as the run goes on.
 /// - What a scene calls at every evaluation (Python, the nearest point of a path) counts more than
 ///   the algebra: radau evaluates half as often as explicit_rk, or less.
 /// - Without damping the errors of all steps pile up. At the same tolerance those of radau are 10
@@ -52,7 +52,7 @@ SceneTraits find_traits(const system::Regime& system, const system::Pattern& pat
 /// The decision to leave a method for the next one of the order.
 struct MethodChange {
   enum class Cause {
-    cost,  ///< the next method has less work
+    cost,  ///< the other method has less work, or is tried
     stop,  ///< the method can make no step
     guard, ///< a guard has refused a step of the method
   };
@@ -60,6 +60,7 @@ struct MethodChange {
   std::string method; ///< the one that is left
   double time = 0.0;  ///< [s]
   std::string reason; ///< what happened
+  std::string to;     ///< the one that follows
 };
 
 /// "radau gave up: the step has become too short"; a decision on costs by its reason alone.
@@ -68,8 +69,18 @@ std::string in_words(const MethodChange& change);
 /// "radau at t = 1.5 s: the step has become too short"
 std::string with_time(const MethodChange& change);
 
-/// The method at work in a run, those before it and those that are left. Each method is given up
-/// once at most: what it could not pass may come again.
+/// The method at work in a run, those before it and those that are left. A method that could not
+/// go on, or whose step a guard refused, is given up: what it could not pass may come again.
+///
+/// explicit_rk and radau also change places by their costs, operations per simulated second over
+/// ten steps. The other one is tried where it may win:
+/// - radau, where stability bounds the steps of explicit_rk: their length times the fastest rate of
+///   the equations is more than half of the limit of its stability;
+/// - explicit_rk, where steps as long as those of radau, and no longer than its stability allows,
+///   would take less than 1/1.5 of the operations.
+/// A trial is 20 steps. The method of the trial stays if its last ten cost less than the ten steps
+/// before the trial; else the run changes back, and the next trial waits until ten times the
+/// operations of this one have been made, then twice as many each time.
 class MethodChoice {
 public:
   /// The one of that name; none is left.
@@ -78,49 +89,37 @@ public:
   /// Those of an order, from the first on.
   explicit MethodChoice(MethodOrder order);
 
-  const std::string& method() const { return method(state_.at); }
+  const std::string& method() const { return candidates_[state_.at]; }
   const MethodOrder& order() const { return order_; }
 
   /// Was it chosen, rather than named?
   bool chosen() const { return order_.methods.size() > 1; }
 
-  /// Is there another method to go on with?
-  bool more() const { return state_.at + 1 < size(state_.turns); }
+  /// Is there another method to go on with where this one stops?
+  bool more() const { return follower() < candidates_.size(); }
 
-  /// Goes on with the next method, of which there must be one.
+  /// Goes on with another method, after a decision on costs with the other of the two that are
+  /// weighed; else with the first of the order that is left, of which there must be one.
   void next(const MethodChange& change);
 
   /// The change that follows from an error of the method at work. Throws SolverError where no
   /// method is left, with all that were tried.
   MethodChange after(const SolverError& error, MethodChange::Cause cause) const;
 
-  /// Takes an accepted step of the length h [s] at the rate of the motion [1/s], after so many
-  /// operations since the start of the run.
-  /// @param own the method chose its end; else h is no evidence
-  void accept(double h, double rate, bool own, double operations);
+  /// Takes an accepted step of the length h [s], after so many operations since the start of the
+  /// run.
+  void accept(double h, double operations);
 
-  /// The change at time t [s] to a method with longer steps, where so many of the last steps of
-  /// explicit_rk were so short against the motion that it must be stability that limits them.
-  std::optional<MethodChange> labours(double t) const;
-
-  /// Is it time to ask whether explicit_rk would do the work of radau with less? Once in so many
-  /// steps, where the scene was stiff at its start.
+  /// Are there ten more steps to weigh, and two methods?
   bool weighs() const;
 
-  /// Lets explicit_rk follow, then radau again, if it would need less than half of the operations:
-  /// the counts are good to a factor of 2. Its steps are as long as those of radau, and no longer
-  /// than its stability allows. Its turn takes ten times the operations of the steps that were
-  /// weighed, so that these count little, and twice those of its last turn if radau did no better
-  /// at once.
+  /// Weighs the last ten steps.
   /// @param t        time now [s]
   /// @param of_step  operations of one step of explicit_rk
-  /// @param fastest  rate of the equations [1/s], asked for where steps of any length would do
-  /// @returns the change to explicit_rk, if so
+  /// @param fastest  rate of the equations [1/s], asked for where it decides
+  /// @returns the change to the other method, for a trial or back from it
   std::optional<MethodChange> weigh(double t, double of_step,
                                     const std::function<double()>& fastest);
-
-  /// The change back to radau at time t [s], where the turn of explicit_rk is over.
-  std::optional<MethodChange> returns(double t) const;
 
   /// A method from a time on, and why, in words.
   struct Part {
@@ -131,16 +130,17 @@ public:
   std::vector<Part> parts() const;
 
   struct State {
-    std::size_t at = 0;
-    std::vector<MethodChange> changes; ///< so far, one for each method before
-    int short_steps = 0;               ///< in a row
-    std::size_t turns = 0;             ///< of explicit_rk, each with radau after it
-    double turn = 0.0;                 ///< steps of the last
-    double turn_steps = 0.0;           ///< made in it
-    bool again = false;                ///< have no steps of radau been weighed since the last turn?
-    int weighed_steps = 0;             ///< since the last `weigh`
-    double weighed_time = 0.0;         ///< that they took [s]
-    double operations = 0.0, weighed_from = 0.0; ///< at the last step, at the last `weigh`
+    std::size_t at = 0;                         ///< in the candidates
+    std::vector<std::size_t> given_up;          ///< candidates that are
+    std::vector<MethodChange> changes;          ///< so far
+    int steps = 0;                              ///< in the window that is weighed next
+    double time = 0.0;                          ///< that they took [s]
+    double operations = 0.0, window_from = 0.0; ///< at the last step, at the start of the window
+    int trial = 0;            ///< windows made of a trial, from 1 on; 0: no trial is on
+    double trial_from = 0.0;  ///< operations at its start
+    double cost_before = 0.0; ///< of the method before the trial [1/s]
+    double patience = 10.0;   ///< operations from a trial to the next over those of the trial
+    double next_look = 0.0;   ///< operations at which the next trial may begin
   };
   const State& state() const { return state_; }
 
@@ -148,11 +148,15 @@ public:
   void set(State state);
 
 private:
-  bool takes_turn() const { return state_.at % 2 == 1 && state_.at < 2 * state_.turns; }
-  std::size_t size(std::size_t turns) const { return order_.methods.size() + 2 * turns; }
-  const std::string& method(std::size_t at) const;
+  std::size_t follower() const;
+  std::size_t rival() const;
+  bool is_left(std::size_t k) const;
+  void open_window();
+  std::optional<std::string> judge_trial(double cost);
+  std::optional<std::string> promise(double of_step, const std::function<double()>& fastest);
 
   MethodOrder order_;
+  std::vector<std::string> candidates_; ///< those of the order, then the rival that it lacks
   State state_;
 };
 
