@@ -93,13 +93,12 @@ def test_a_step_that_loses_energy_is_made_by_another_method(tmp_path: Path) -> N
     assert "energy_guard" in outcome(scene, "explicit_rk", tmp_path, **loose).reason
     assert outcome(scene, "auto", tmp_path, **loose).outcome == PASS
     results = hydrodae.run(scene.case({"method": "auto", **loose}, tmp_path))
-    assert str(results.statistics["methods"]).split() == ["explicit_rk", "radau"]
-    start, since = map(float, str(results.statistics["method_from"]).split())
-    assert start == 0.0 < since < results.end_time
+    assert str(results.statistics["methods"]).split()[-2:] == ["explicit_rk", "radau"]
+    since = float(str(results.statistics["method_from"]).split()[-1])
+    assert 0.0 < since < results.end_time
     assert results.statistics["method_in_use"] == "radau"
     line = next(row for row in results.summary().splitlines() if "method auto" in row)
-    assert f"explicit_rk (nothing is stiff), radau from t = {since:.9g} s because" in line
-    assert "because a step of explicit_rk was refused: the energy balance" in line
+    assert f"radau from t = {since:.9g} s because a step of explicit_rk was refused: the" in line
 
 
 HANGING = """

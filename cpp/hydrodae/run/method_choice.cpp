@@ -184,7 +184,7 @@ std::optional<std::string> MethodChoice::judge_trial(double cost) {
   state_.next_look = state_.operations + state_.patience * spent;
   state_.patience *= 2.0;
   return method() + " took " + rounded_text(cost / state_.cost_before) +
-         " times the operations of the method before it";
+         " times the operations of the other method";
 }
 
 /// The reason to try the other method, if there is one.
@@ -199,8 +199,8 @@ std::optional<std::string> MethodChoice::promise(double of_step,
       return number_text(weighed) + " steps of radau took " + rounded_text(ratio) +
              " times the operations that explicit_rk needs";
   } else if (const double reach = mean * fastest(); reach > 0.5 * stability) {
-    return "steps of explicit_rk are " + rounded_text(reach) +
-           " times as long as the fastest motion of the equations, as its stability allows";
+    return "stability bounds the steps of explicit_rk: their length is " + rounded_text(reach) +
+           " over the fastest rate";
   }
   return std::nullopt;
 }
