@@ -72,7 +72,7 @@ void MethodAtWork::judge(const Step& step) {
 
 void MethodAtWork::accept(const Step& step) {
   if (choice_.more())
-    choice_.accept(step.end - step.start, operations());
+    choice_.accept(step.end - step.start, step.own, operations());
 }
 
 linalg::Statistics MethodAtWork::statistics() const {

@@ -15,6 +15,7 @@ constexpr double stiff = 50.0;      ///< fastest rate over that of the motion
 constexpr double long_run = 2000.0; ///< [rad]
 constexpr int weighed = 10;         ///< steps that are weighed together
 constexpr double stability = 5.0;   ///< of a step of order 8: its length times the fastest rate
+constexpr double safety = 0.8;      ///< of that, where the step control rejects and shrinks
 constexpr double enough = 1.5;      ///< operations over those promised; counts are this good
 constexpr double look = 500.0;      ///< evaluations between two looks at the fastest rate, of 14
 
@@ -128,7 +129,7 @@ std::size_t MethodChoice::rival() const {
 }
 
 void MethodChoice::open_window() {
-  state_.steps = 0;
+  state_.steps = state_.bounded = 0;
   state_.time = 0.0;
 }
 
@@ -159,11 +160,13 @@ MethodChange MethodChoice::after(const SolverError& error, MethodChange::Cause c
 }
 
 // The first step opens the window: its own operations may hold the start of the method.
-void MethodChoice::accept(double h, double operations) {
-  if (state_.steps == 0)
+void MethodChoice::accept(double h, bool own, double operations) {
+  if (state_.steps == 0) {
     state_.window_from = operations;
-  else
+  } else {
     state_.time += h;
+    state_.bounded += !own;
+  }
   ++state_.steps;
   state_.operations = operations;
 }
@@ -198,7 +201,9 @@ std::optional<std::string> MethodChoice::promise(double of_step,
     if (ratio > enough)
       return number_text(weighed) + " steps of radau took " + rounded_text(ratio) +
              " times the operations that explicit_rk needs";
-  } else if (const double reach = mean * fastest(); reach > 0.5 * stability) {
+  } else if (2 * state_.bounded > weighed) {
+    return "instants of the scene bound the steps of explicit_rk";
+  } else if (const double reach = mean * fastest(); reach > safety * stability) {
     return "stability bounds the steps of explicit_rk: their length is " + rounded_text(reach) +
            " over the fastest rate";
   }

@@ -74,8 +74,9 @@ std::string with_time(const MethodChange& change);
 ///
 /// explicit_rk and radau also change places by their costs, operations per simulated second over
 /// ten steps. The other one is tried where it may win:
-/// - radau, where stability bounds the steps of explicit_rk: their length times the fastest rate of
-///   the equations is more than half of the limit of its stability;
+/// - radau, where its own error does not bound the steps of explicit_rk: stability does (their
+///   length times the fastest rate of the equations is near the limit), or instants of the scene
+///   do, as those of a sampled controller;
 /// - explicit_rk, where steps as long as those of radau, and no longer than its stability allows,
 ///   would take less than 1/1.5 of the operations.
 /// A trial is 20 steps. The method of the trial stays if its last ten cost less than the ten steps
@@ -108,7 +109,8 @@ public:
 
   /// Takes an accepted step of the length h [s], after so many operations since the start of the
   /// run.
-  void accept(double h, double operations);
+  /// @param own the method chose its end; else an event, a controller or the end of the run did
+  void accept(double h, bool own, double operations);
 
   /// Are there ten more steps to weigh, and two methods?
   bool weighs() const;
@@ -130,11 +132,12 @@ public:
   std::vector<Part> parts() const;
 
   struct State {
-    std::size_t at = 0;                         ///< in the candidates
-    std::vector<std::size_t> given_up;          ///< candidates that are
-    std::vector<MethodChange> changes;          ///< so far
-    int steps = 0;                              ///< in the window that is weighed next
-    double time = 0.0;                          ///< that they took [s]
+    std::size_t at = 0;                ///< in the candidates
+    std::vector<std::size_t> given_up; ///< candidates that are
+    std::vector<MethodChange> changes; ///< so far
+    int bounded = 0;                   ///< steps of the window whose end the method did not choose
+    int steps = 0;                     ///< in the window that is weighed next
+    double time = 0.0;                 ///< that they took [s]
     double operations = 0.0, window_from = 0.0; ///< at the last step, at the start of the window
     int trial = 0;            ///< windows made of a trial, from 1 on; 0: no trial is on
     double trial_from = 0.0;  ///< operations at its start
