@@ -13,7 +13,7 @@ from hydrodae.case import Case
 from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.database.second_order import SecondOrderTable
+from hydrodae.hdb.database.second_order import OF_SCENE, SecondOrderTable
 from hydrodae.linear import LinearModel
 from hydrodae.study.drift.far_field import Drift
 from hydrodae.support import outputs
@@ -48,7 +48,7 @@ def source_of(model: LinearModel, carrier: str) -> str:
         parts.append(f"{each.name} c={','.join(f'{c:.6g}' for c in each.damping)}")
     name = "" if model.case.path is None else f" {model.case.path.name}"
     return (
-        f"hydrodae far field of case{name}, scene {scene_digest(model.case)}, dampers "
+        f"{OF_SCENE} of case{name}, scene {scene_digest(model.case)}, dampers "
         f"[{'; '.join(parts)}], loads of all bodies on {carrier}"
     )
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hydrodae.support import outputs
+from hydrodae.support.arrays import Array
 
 if TYPE_CHECKING:
     from hydrodae.study.drift.far_field import Drift
@@ -95,12 +96,41 @@ def write_csv(path: str | os.PathLike[str], found: Drift) -> Path:
     return path
 
 
-def columns(found: Drift, h: int = 0) -> dict[str, tuple[str, np.ndarray]]:
-    """Return unit and values (nw,) of the drift in waves of one heading, by name."""
-    surge, sway, yaw = found.load[:, h].real.T
+def columns(found: Drift, omega: Array, h: int = 0) -> dict[str, tuple[str, Array]]:
+    """Return unit and values (nw,) of the drift in waves of one heading, by name.
+
+    Parameters
+    ----------
+    found : Drift
+    omega : (nw,) array
+        Frequencies among those of the drift, in any order [rad/s].
+    h : int
+        Place of the heading.
+    """
+    rows = np.searchsorted(found.omega, omega)
+    surge, sway, yaw = found.load[rows, h].real.T
     return {
         "drift surge": ("N/m2", surge),
         "drift sway": ("N/m2", sway),
         "drift yaw": ("N m/m2", yaw),
-        "drift by energy": ("N/m2", found.by_power[:, h]),
+        "drift by energy": ("N/m2", found.by_power[rows, h]),
     }
+
+
+def beside_motions(found: Drift, periods: Array) -> str:
+    """Return a line for each load of one heading: peak, its period, values at periods [s]."""
+    lines = ["mean drift of all bodies over the square of the wave amplitude"]
+    head = " ".join(f"{f'{period:.4g} s':>10}" for period in periods)
+    lines.append(f"  {'':16} {'':9} {'peak':>10} {'period':>9}  {head}")
+    largest = float(np.abs(found.by_power).max())
+    omega = 2.0 * np.pi / periods
+    for name, (unit, values) in columns(found, found.omega).items():
+        top = int(np.abs(values).argmax())
+        if np.abs(values[top]) < 1e-9 * largest:
+            continue
+        at = [values[int(np.abs(found.omega - w).argmin())] for w in omega]
+        numbers = " ".join(f"{_rounded(1e-3 * value, 1e-3 * largest):>10}" for value in at)
+        peak = _rounded(1e-3 * values[top], 1e-3 * largest)
+        period = 2.0 * np.pi / found.omega[top]
+        lines.append(f"  {name:16} {'k' + unit:9} {peak:>10} {period:7.3f} s  {numbers}")
+    return "\n".join([*lines, verdict(found)])
