@@ -65,9 +65,7 @@ def guide(body: str, place: Sequence[float], damping: float, scale: float = 1.0)
 def mooring(body: str, stiffness: float) -> str:
     """Return springs [N/m] that hold a body in surge and sway, and in yaw."""
     diagonal = [stiffness, stiffness, 0.0, 0.0, 0.0, stiffness]
-    return table(
-        "force", name=f"moor_{body}", type="mooring_matrix", body=body, stiffness=diagonal
-    )
+    return table("force", name=f"moor_{body}", type="mooring_matrix", body=body, stiffness=diagonal)
 
 
 def written(folder: Path, data: HydroDatabase, *tables: str, file: str = "hydro.h5") -> Case:

@@ -39,10 +39,10 @@ COMMANDS = {
     ),
     "drift": (
         "mean drift of a device as it moves, by the momentum of its far field",
-        "Mean drift in surge, sway and yaw of all bodies together, from the Kochin functions of the "
-        "database and the motions of the linearised case, with its power take-offs, joints and "
-        "moorings. Print its error, the least drift that the power taken asks for, and with "
-        "--offset the mean offset. Write a copy of the database with the table.",
+        "Mean drift in surge, sway and yaw of all bodies together, from the Kochin functions of "
+        "the database and the motions of the linearised case. Print the error of the drift and "
+        "the least drift that the power taken asks for. With --offset, also find the mean offset "
+        "in the waves of the case. With -o, write a copy of the database with the table.",
     ),
     "spectral": (
         "motion in the sea of a case, with drag and friction linearised in it",

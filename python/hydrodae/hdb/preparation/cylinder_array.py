@@ -228,9 +228,7 @@ def _kochin(
     radiation = {**axes, "radiating_dof": dofs}
     waves = {**axes, "wave_direction": water.heading}
     return {
-        RADIATION: SourceTable(
-            found[:, :motions], ("omega", "radiating_dof", "theta"), radiation
-        ),
+        RADIATION: SourceTable(found[:, :motions], ("omega", "radiating_dof", "theta"), radiation),
         DIFFRACTION: SourceTable(found[:, motions:], ("omega", "wave_direction", "theta"), waves),
     }
 

@@ -11,7 +11,6 @@ import numpy as np
 from hydrodae.case import Case
 from hydrodae.errors import HydrodaeError
 from hydrodae.hdb.checks.drift import AGREE, along_headings
-from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.second_order import SAME_HEADING
 from hydrodae.linear import LinearModel
 from hydrodae.study.drift.far_field import Drift, drift_of

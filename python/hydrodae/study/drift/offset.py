@@ -108,9 +108,7 @@ def mean_offset(
         moved = model.places[carrier.body]
         steps.append(float(np.linalg.norm(moved - first.places[carrier.body])))
         if np.linalg.norm(moved - place) <= TOLERANCE * steps[-1]:
-            return Offset(
-                load, first.offsets, model.offsets, model.rotations, steps, carrier.body
-            )
+            return Offset(load, first.offsets, model.offsets, model.rotations, steps, carrier.body)
         place = moved
     raise CaseError(
         f"the mean offset did not settle in {MOST} iterations; the last are "

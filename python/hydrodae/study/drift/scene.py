@@ -178,7 +178,9 @@ class Surroundings:
             free = self._motion(omega, float(heading))
             xi, motions = free @ self.model.free.T, free @ self.model.hydro_map.T
             ahead = np.array([np.cos(heading), np.sin(heading)])
-            motions = motions * np.exp(1j * k * (self.shift @ ahead))[:, None]  # as if not displaced
+            motions = (
+                motions * np.exp(1j * k * (self.shift @ ahead))[:, None]
+            )  # as if not displaced
             out[:, h] += np.einsum("wi,wit->wt", motions.conj(), radiation)
             rate = 1j * omega[:, None] * xi
             given = np.sum(tables.excitation(omega, float(heading)).conj() * rate, axis=1).real
@@ -259,9 +261,7 @@ class Surroundings:
         return CubicSpline(w, values * np.exp(1j * self._radiation_lag(w)))
 
     def _radiation(self, omega: Array) -> Complex:
-        return np.asarray(
-            self._smooth_radiation(omega) * np.exp(-1j * self._radiation_lag(omega))
-        )
+        return np.asarray(self._smooth_radiation(omega) * np.exp(-1j * self._radiation_lag(omega)))
 
 
 def turned(angle: float) -> Array:
