@@ -40,6 +40,7 @@ RUN_COMMANDS = (
     "docs/control.md",
     "docs/conventions.md",
     "docs/databases.md",
+    "docs/drift.md",
     "docs/faq.md",
     "docs/first_steps.md",
     "docs/forces.md",
@@ -65,6 +66,7 @@ RUN_APART = {
     ("docs/records.md", "python"): 3,  # test_record_command.py
     ("docs/records.md", "sh"): 3,
     ("docs/spectral.md", "python"): 1,
+    ("docs/drift.md", "python"): 1,
     ("docs/control.md", "python"): 3,
     ("docs/extending.md", "python"): 1,
     ("docs/conventions.md", "python"): 1,

@@ -51,9 +51,9 @@ def hemisphere(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Folder with the database of a hemisphere of 1 m in deep water, by Capytaine."""
     pytest.importorskip("capytaine")
     folder = tmp_path_factory.mktemp("hemisphere")
-    k = np.sort([*KR, 0.45, 0.7, 1.1, 1.5, 1.9, 2.35])
-    settings = bem.Settings(np.sqrt(9.80665 * k), rho=1000.0, gravity=9.80665, kochin=36)
-    body = bem.WettedBody("ball", shapes.sphere(0.14, radius=1.0), np.zeros(3))
+    omega = np.sqrt(9.80665 * np.array(KR))
+    settings = bem.Settings(omega, rho=1000.0, gravity=9.80665, kochin=36)
+    body = bem.WettedBody("ball", shapes.sphere(0.1, radius=1.0), np.zeros(3))
     data, _ = computing.compute([body], settings, folder / "work")
     data.write(folder / "hydro.h5")
     return folder

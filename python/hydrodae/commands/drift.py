@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from hydrodae.case import Case
 from hydrodae.commands.arguments import given_case
 from hydrodae.commands.machine import of_drift, print_json
 from hydrodae.commands.options import add_case, add_json
@@ -47,6 +48,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_json(parser)
 
 
+def _case(arguments: argparse.Namespace) -> Case:
+    """Return the case, without memory of radiation where its database has no fit of it."""
+    try:
+        return given_case(arguments)
+    except CaseError as error:
+        if error.key != "hydro.database":
+            raise
+        return given_case(arguments, {"hydro.radiation": "none"})
+
+
 def run(arguments: argparse.Namespace) -> int:
     """Print the drift and, if asked, the mean offset; returns 0."""
     outputs = [Path(name) for name in arguments.output]
@@ -56,7 +67,7 @@ def run(arguments: argparse.Namespace) -> int:
                 f"{path}: the ending says the kind of file, {', '.join((*DATABASE, *CSV))}, not "
                 f"{path.suffix!r}"
             )
-    case = given_case(arguments)
+    case = _case(arguments)
     with StageLine("drift", STAGES if arguments.offset else STAGES[:2]) as stage:
         stage(STAGES[0])
         model = LinearModel(case)

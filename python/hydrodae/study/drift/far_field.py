@@ -13,7 +13,7 @@ from hydrodae.case.case import CaseLike
 from hydrodae.errors import CaseError
 from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.hdb.relations.far_field import SURGE, SWAY, YAW, carried, scattered
-from hydrodae.linear import LinearModel
+from hydrodae.linear import LinearModel, without_memory
 from hydrodae.study.drift.carrier import Carrier, carrier_of
 from hydrodae.study.drift.scene import Surroundings
 from hydrodae.support.arrays import Array, Complex
@@ -55,6 +55,8 @@ class Drift:
         Phase speed w / k [m/s].
     carrier : Carrier
         Body on which the table and the mean offset put the loads.
+    computed : (nw,) array of bool
+        Whether the database has the frequency; between its frequencies H is interpolated.
     """
 
     title: str
@@ -68,6 +70,7 @@ class Drift:
     by_force: dict[str, Array]
     speed: Array
     carrier: Carrier
+    computed: NDArray[np.bool_]
 
     @property
     def gap(self) -> Array:
@@ -76,9 +79,18 @@ class Drift:
 
     @property
     def error(self) -> float:
-        """Largest gap over the largest drift of its heading [-]."""
-        largest = np.abs(self.by_power).max(axis=0)
-        return float((np.abs(self.gap).max(axis=0) / np.where(largest > 0.0, largest, 1.0)).max())
+        """Largest gap over the largest drift [-]."""
+        return self._error(np.ones(self.omega.size, dtype=bool))
+
+    @property
+    def error_computed(self) -> float:
+        """The same at those frequencies alone that the database has."""
+        return self._error(self.computed)
+
+    def _error(self, rows: NDArray[np.bool_]) -> float:
+        largest = float(np.abs(self.by_power).max())
+        worst = float(np.abs(self.gap[rows]).max(initial=0.0))
+        return worst / largest if largest > 0.0 else 0.0
 
     @property
     def least(self) -> Array:
@@ -134,7 +146,11 @@ def drift(
     DatabaseError
         The database has no Kochin functions, or none of a frequency, heading or coordinate.
     """
-    return drift_of(Surroundings(LinearModel.of(case, set)), omega, headings, pairs=pairs)
+    if isinstance(case, LinearModel):
+        model = LinearModel.of(case, set)
+    else:
+        model = LinearModel(without_memory(case, set)[0])
+    return drift_of(Surroundings(model), omega, headings, pairs=pairs)
 
 
 def drift_of(
@@ -173,6 +189,7 @@ def drift_of(
         by_force=found.by_force,
         speed=speed,
         carrier=carrier,
+        computed=np.isclose(w[:, None], water.functions.omega, rtol=1e-9).any(axis=1),
     )
 
 

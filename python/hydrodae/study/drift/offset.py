@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from hydrodae.case import Case
-from hydrodae.case.case import CaseLike, read_case
+from hydrodae.case.case import CaseLike
+from hydrodae.case.contents import overrides_of
 from hydrodae.errors import CaseError
-from hydrodae.linear import LinearModel
+from hydrodae.linear import LinearModel, without_memory
 from hydrodae.linear.sea import wave_components
 from hydrodae.study.drift.carrier import carrier_of
 from hydrodae.study.drift.far_field import drift_of
@@ -57,8 +58,8 @@ class Offset:
         return np.asarray(self.held[self.carrier] - self.still[self.carrier])
 
     def __str__(self) -> str:
-        x, y, z = self.offset
-        fx, fy, m = self.load
+        x, y, z = (value + 0.0 for value in np.round(self.offset, 9))
+        fx, fy, m = (value + 0.0 for value in np.round(self.load, 6))
         lines = [
             f"mean drift in the waves of the case: surge {1e-3 * fx:.4g} kN, sway {1e-3 * fy:.4g} "
             f"kN, yaw {1e-3 * m:.4g} kN m, on {self.carrier}",
@@ -96,7 +97,7 @@ def mean_offset(
     DatabaseError
         The waves are outside the Kochin functions of the database.
     """
-    read = read_case(case, set)
+    read = without_memory(case, set)[0]
     waves = wave_components(read)
     model = LinearModel(read) if still is None else still
     first, steps, load = model, [], np.zeros(3)
@@ -142,13 +143,6 @@ def pushed(case: Case, body: str, load: Array) -> Case:
     return Case(
         case.text + text,
         directory=case.directory,
-        values={key: value for key, value in parsed(case).items()},
+        values=overrides_of("\n".join(f"{k} = {v}" for k, v in case.overrides.items())),
         libraries=case.libraries,
     )
-
-
-def parsed(case: Case) -> dict[str, Any]:
-    """Return the replaced values of a case by dotted key."""
-    from hydrodae.case.contents import overrides_of
-
-    return overrides_of("\n".join(f"{key} = {value}" for key, value in case.overrides.items()))

@@ -57,9 +57,15 @@ def verdict(found: Drift) -> str:
         if found.margin >= -NOISE
         else f"Maruo's inequality F >= P k/w is broken by {-found.margin:.2g} of the largest drift"
     )
+    between = ""
+    if found.computed.any() and found.error_computed < 0.5 * found.error > NOISE:
+        between = (
+            f" ({found.error_computed:.2g} at the frequencies of the database: compute it for "
+            f"closer ones)"
+        )
     return (
         f"error: momentum and energy differ by at most {found.error:.2g} of the largest drift, at "
-        f"{found.omega[at[0]]:.4g} rad/s; {kept}"
+        f"{found.omega[at[0]]:.4g} rad/s{between}\n{kept}"
     )
 
 
