@@ -1,7 +1,7 @@
 r"""Kochin functions of an array of cylinders, from the progressive waves that leave each body.
 
-With phasors e^{+iwt} and coefficients A_jn of H_n(k r_j) / H_n(k a) e^{i n theta_j} Z_0(z) about
-the axis p_j of body j, H = J - iY and |n| for n in H, the potential far away is
+Phasors are e^{+iwt}. A_jn are the coefficients of H_n(k r_j) / H_n(k a) e^{i n theta_j} Z_0(z)
+about the axis p_j of body j. H = J - iY, with |n| for n. The potential far away is
 
     phi = Z_0(z) sqrt(2 / (pi k r)) e^{-ikr} e^{i pi/4} S(theta)
     S = sum_j e^{i k (p_j cos, sin)} sum_n A_jn i^|n| e^{i n theta} / H_|n|(k a)

@@ -51,10 +51,10 @@ class Judgement:
         if self.effect > AGREE and self.undamped < self.own:
             return (
                 f"{text}that of the device without its power take-offs, which change the drift by "
-                f"{self.effect:.0%}; make it anew: hydrodae drift CASE -o FILE.h5"
+                f"{self.effect:.0%}; make it again: hydrodae drift CASE -o FILE.h5"
             )
         return (
-            f"{text}rms difference {self.own:.2g} from the far field of this device; make it anew: "
+            f"{text}rms difference {self.own:.2g} from the far field of this device; make it again: "
             f"hydrodae drift CASE -o FILE.h5"
         )
 

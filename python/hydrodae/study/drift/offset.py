@@ -78,7 +78,7 @@ def mean_offset(
 ) -> Offset:
     """Iterate mean drift and equilibrium of a case in its waves.
 
-    The drift moves the equilibrium; the case is linearised anew there, whose motions give another
+    The drift moves the equilibrium; the case is linearised again there, whose motions give another
     drift. Waves of equal frequency have random phases: each puts its own drift on the device.
 
     Parameters
