@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from hydrodae.study.calibrate import calibrate
     from hydrodae.study.chart import chart, recommend
     from hydrodae.study.check import check
+    from hydrodae.study.drift import drift
     from hydrodae.study.equilibrium import equilibrium
     from hydrodae.study.gradient import gradient, objective
     from hydrodae.study.ladder import ladder
@@ -73,6 +74,7 @@ __all__ = [
     "catenary",
     "chart",
     "check",
+    "drift",
     "equilibrium",
     "gradient",
     "hdb",
@@ -102,6 +104,7 @@ _LATER = {
     "catenary": "mooring",
     "chart": "study.chart",
     "check": "study.check",
+    "drift": "study.drift",
     "equilibrium": "study.equilibrium",
     "gradient": "study.gradient",
     "ladder": "study.ladder",

@@ -65,6 +65,8 @@ RUN_APART = {
     ("docs/records.md", "python"): 3,  # test_record_command.py
     ("docs/records.md", "sh"): 3,
     ("docs/spectral.md", "python"): 1,
+    ("docs/drift.md", "python"): 1,
+    ("docs/drift.md", "sh"): 1,
     ("docs/control.md", "python"): 3,
     ("docs/extending.md", "python"): 1,
     ("docs/conventions.md", "python"): 1,
@@ -207,6 +209,17 @@ def test_page_for_closed_loops_runs(repository, tmp_path, monkeypatch, capsys) -
     assert float(apart) < 1e-4 * 1e3 * float(load)  # N, kN
     with wrong("joint.pin"):
         hydrodae.check("cylinder.toml", set={"joint.cylinder.initial.displacement": 1.0})
+
+
+def test_page_for_drift_runs(tmp_path, repository, monkeypatch, capsys) -> None:
+    """Its Python reads the database that its commands make; `check` accepts its table."""
+    monkeypatch.chdir(tmp_path)
+    page = repository / "docs" / "drift.md"
+    run_lines(command_lines(page), monkeypatch)
+    assert "that of this device" in capsys.readouterr().out
+    known: dict[str, object] = {}
+    exec(compile(blocks(page, "python")[0], "drift.md", "exec"), known)
+    assert known["found"].error < 1e-3  # type: ignore[attr-defined]
 
 
 def test_page_for_fmus_runs(repository, tmp_path, monkeypatch) -> None:

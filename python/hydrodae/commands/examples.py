@@ -17,6 +17,10 @@ EXAMPLES = {
         "hydrodae rao case.toml --periods 6,8,10 --picture rao.pdf",
         "hydrodae rao case.toml -o rao.nc",
     ),
+    "drift": (
+        "hydrodae drift case.toml -o with_drift.h5",
+        "hydrodae drift case.toml --pairs --offset -o drift.csv",
+    ),
     "spectral": ("hydrodae spectral case.toml",),
     "ladder": ("hydrodae ladder case.toml",),
     "sweep": (

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from hydrodae.linear.modes import Mode
     from hydrodae.results import Results
     from hydrodae.study.calibrate import Calibration
+    from hydrodae.study.drift import Drift, Offset
     from hydrodae.study.equilibrium import Equilibrium
     from hydrodae.study.rao.responses import Rao
     from hydrodae.study.spectral import Spectral
@@ -82,6 +83,34 @@ def of_rao(found: Rao) -> dict[str, Any]:
         "in_sea": {"standard_deviation": deviations, "mean_power": powers},
         "notes": found.notes,
     }
+
+
+def of_drift(found: Drift, offset: Offset | None) -> dict[str, Any]:
+    """Drift over frequency and pair of headings, its error, powers, and the mean offset."""
+    told = {
+        "title": found.title,
+        "carrier": found.carrier.body,
+        "omega": found.omega,
+        "headings": found.heading[found.pairs],
+        "surge": found.load[:, :, 0],
+        "sway": found.load[:, :, 1],
+        "yaw": found.load[:, :, 2],
+        "along": found.along,
+        "by_energy": found.by_power,
+        "power": found.power,
+        "mean_power": found.by_force,
+        "error": found.error,
+        "maruo_margin": found.margin,
+    }
+    if offset is not None:
+        told["offset"] = {
+            "load": offset.load,
+            "offset": offset.offset,
+            "steps": offset.steps,
+            "offsets": offset.held,
+            "rotations": offset.turned,
+        }
+    return told
 
 
 def _of_response(response: Response) -> dict[str, Any]:

@@ -37,6 +37,13 @@ COMMANDS = {
         "equilibrium, from the frequency tables of its database. With --time-domain, also run "
         "regular waves and compare.",
     ),
+    "drift": (
+        "mean drift of a device as it moves, by the momentum of its far field",
+        "Mean drift in surge, sway and yaw of all bodies together, from the Kochin functions of "
+        "the database and the motions of the linearised case. Print the error of the drift and "
+        "the least drift that the power taken asks for. With --offset, also find the mean offset "
+        "in the waves of the case. With -o, write a copy of the database with the table.",
+    ),
     "spectral": (
         "motion in the sea of a case, with drag and friction linearised in it",
         "Standard deviations, mean powers and equivalent damping of a case in its sea. The model "

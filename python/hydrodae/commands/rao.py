@@ -9,11 +9,12 @@ import numpy as np
 from hydrodae.case import Case
 from hydrodae.case.case import parse_assignment
 from hydrodae.commands.arguments import heading_deg, parse_positive
-from hydrodae.commands.machine import of_rao, print_json
+from hydrodae.commands.machine import of_drift, of_rao, print_json
 from hydrodae.commands.options import add_case, add_json
 from hydrodae.errors import CaseError
 from hydrodae.linear import LinearModel, without_memory
 from hydrodae.pictures.plot import save
+from hydrodae.study.drift.text import beside_motions
 from hydrodae.study.rao import output, rao, text
 
 
@@ -45,6 +46,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=100.0,
         help="time between the ramp (10 periods) and the fit (default 100 s)",
     )
+    parser.add_argument(
+        "--drift",
+        action="store_true",
+        help="also mean drift of all bodies, from the Kochin functions of the database",
+    )
     parser.add_argument("--jobs", metavar="N", type=int, help="runs at a time (default: all cores)")
     parser.add_argument(
         "-o",
@@ -73,13 +79,16 @@ def run(arguments: argparse.Namespace) -> int:
         output.check_output(arguments.output)
     periods = arguments.periods and parse_positive("--periods", arguments.periods)
     found = rao(model, periods=periods, heading=float(np.radians(arguments.heading)))
-    written = [f"written: {found.write(arguments.output)}"] if arguments.output else []
+    drift = found.drift() if arguments.drift else None
+    written = [f"written: {found.write(arguments.output, drift)}"] if arguments.output else []
     if arguments.picture:
         written.append(f"picture: {save(found.draw(), arguments.picture)}")
     if arguments.json:
-        print_json(of_rao(found))
+        print_json(of_rao(found) | ({} if drift is None else {"drift": of_drift(drift, None)}))
         return 0
     print("\n" + found.table())
+    if drift is not None:
+        print("\n" + beside_motions(drift, 2.0 * np.pi / np.sort(found.chosen.omega)[::-1]))
     for line in written:
         print(line)
     if arguments.time_domain:

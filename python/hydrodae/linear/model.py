@@ -208,6 +208,13 @@ class LinearModel:
         """Rates of the hydrodynamic coordinates from those of the free motions."""
         return np.asarray(self._model["hydro_map"] @ self._free)
 
+    @property
+    def hydro_places(self) -> tuple[Array, Array]:
+        """Mean yaw (m,) [rad] and place (m, 3) [m] of the body of each of `hydro_labels`."""
+        m = self._model
+        points = np.asarray(m["hydro_points"], dtype=float)
+        return np.asarray(m["hydro_yaws"], dtype=float), points.reshape(-1, 3)
+
     @cached_property
     def tables(self) -> WaterTables | None:
         """What the database shows of the coordinates that move; None where none of them does."""

@@ -8,6 +8,7 @@ from typing import Any
 from hydrodae.case.callbacks.drives import Drive
 from hydrodae.case.callbacks.laws import Force
 from hydrodae.case.case import CaseLike, read_case
+from hydrodae.study.drift.judged import judged
 from hydrodae.study.grouped import grouped
 
 
@@ -47,6 +48,7 @@ def check(
     text = examined.examine(drives, forces)
     if examined.unsampled:
         text += f"  look at: {examined.unsampled}\n"
+    text += "".join(f"  {line}\n" for line in judged(examined))
     return text if every_line else grouped(text)
 
 

@@ -55,6 +55,13 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="vertical eigenfunctions (default: 18 over a draught, at most 600)",
     )
     array.add_argument(
+        "--kochin",
+        metavar="N",
+        type=int,
+        default=0,
+        help="also keep the Kochin functions at N angles around the circle, for hydrodae drift",
+    )
+    array.add_argument(
         "--accept", action="store_true", help="write the file although a check found an error"
     )
 
@@ -80,7 +87,13 @@ def run(args: argparse.Namespace) -> int:
     )
     with ProgressLine(f"{len(places)} cylinders", "frequencies") as progress:
         database, report = cylinders(
-            places, body, water, orders=args.orders, modes=args.modes, progress=progress
+            places,
+            body,
+            water,
+            orders=args.orders,
+            modes=args.modes,
+            kochin=args.kochin,
+            progress=progress,
         )
     print(database.summary())
     print(report)

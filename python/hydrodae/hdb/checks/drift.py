@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from hydrodae.hdb.checks.fixed_and_free import far_fields
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
-from hydrodae.hdb.database.second_order import SecondOrderTable
+from hydrodae.hdb.database.second_order import OF_SCENE, SecondOrderTable
 from hydrodae.hdb.labels import rigid
 from hydrodae.support.arrays import Array
 
@@ -60,7 +60,7 @@ def _maruo(database: HydroDatabase, table: SecondOrderTable) -> list[Finding]:
     name = f"drift along the waves, {table.kind}"
     found: list[tuple[float, float, float, int, int]] = []
     largest = 0.0
-    for heading, drift, known in _along(database, table):
+    for heading, drift, known in along_headings(database, table):
         if not known.any():
             continue
         largest = max(largest, float(np.abs(drift[known]).max()))
@@ -93,7 +93,7 @@ def _below(drift: Array, known: NDArray[np.bool_]) -> tuple[int, int]:
     return int(np.count_nonzero(drift[known] < limit)), int(known.sum())
 
 
-def _along(
+def along_headings(
     database: HydroDatabase, table: SecondOrderTable
 ) -> Iterator[tuple[float, Array, NDArray[np.bool_]]]:
     """Yield each heading [rad], the drift (w,) [N/m2] along it, and where it is known."""
@@ -119,6 +119,9 @@ def _along(
 
 def _far_field(database: HydroDatabase, table: SecondOrderTable) -> list[Finding]:
     """Report whether the drift of a table is that of the fixed or of the free body, or neither."""
+    if table.source.startswith(OF_SCENE):
+        text = f"not checked: {table.source}; hydrodae check CASE compares it with that case"
+        return [Finding("info", f"drift against far field, {table.kind}", text)]
     known = {name: far for name, far in far_fields(database).items() if far is not None}
     if not known:
         return []
@@ -126,7 +129,7 @@ def _far_field(database: HydroDatabase, table: SecondOrderTable) -> list[Finding
     errors = {}
     for state, (omega, headings, drift) in known.items():
         own, other = [], []
-        for heading, along, there in _along(database, table):
+        for heading, along, there in along_headings(database, table):
             apart = np.abs(np.exp(1j * headings) - np.exp(1j * heading))
             h = int(apart.argmin())
             inside = there & (table.omega >= omega[0]) & (table.omega <= omega[-1])

@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.database.extra import SourceTable
+from hydrodae.hdb.database.kochin import diffraction_of, radiation_of
+from hydrodae.hdb.database.second_order import SAME_HEADING
 from hydrodae.hdb.relations.far_field import horizontal_drift
 from hydrodae.support.arrays import Array, Complex
 
@@ -26,7 +28,7 @@ def far_fields(database: HydroDatabase) -> dict[str, FarField | None]:
     omega, heading, kochin = waves
     water = (database.rho, database.gravity, database.water_depth)
     fixed = omega, heading, horizontal_drift(kochin, heading, omega, *water)
-    radiated = _radiated(database, omega, heading)
+    radiated = _radiated(database)
     if radiated is None:
         return {"fixed": fixed, "free": None}
     free = omega, heading, horizontal_drift(kochin + radiated, heading, omega, *water)
@@ -59,72 +61,29 @@ def free_motions(database: HydroDatabase) -> tuple[list[str], Complex] | None:
 
 def _diffracted(database: HydroDatabase) -> tuple[Array, Array, Complex] | None:
     """Return frequencies, headings and H (nw, nh, nt) of the fixed bodies, as far as F goes."""
-    table = database.extra.get("kochin_diffraction")
-    if table is None or not _all_round(table):
+    try:
+        heading, values = diffraction_of(database)
+    except DatabaseError:
         return None
-    if any(name not in table.axes for name in ("omega", "wave_direction")):
+    apart = np.abs(np.exp(1j * heading)[:, None] - np.exp(1j * database.heading))
+    if not np.isfinite(values).all() or not apart.size or apart.min(axis=0).max() > SAME_HEADING:
         return None
-    values = _ordered(table, ("omega", "wave_direction", "theta"))
-    omega, heading = (np.asarray(table.axes[n], float) for n in ("omega", "wave_direction"))
-    rows = _rows(omega, database.omega)
-    if values is None or rows is None:
-        return None
-    usable = np.isfinite(values[rows]).all(axis=(1, 2))
-    if not usable.all() or heading.shape != database.heading.shape:
-        return None
-    return (
-        (database.omega, heading, values[rows]) if np.allclose(heading, database.heading) else None
-    )
+    return database.omega, database.heading, values[:, apart.argmin(axis=0)]
 
 
-def _radiated(database: HydroDatabase, omega: Array, heading: Array) -> Complex | None:
+def _radiated(database: HydroDatabase) -> Complex | None:
     """Return H (nw, nh, nt) of the waves that the free motions radiate."""
-    table, found = database.extra.get("kochin_radiation"), free_motions(database)
-    if table is None or found is None or not _all_round(table):
+    found = free_motions(database)
+    if found is None:
         return None
-    values = _ordered(table, ("omega", "radiating_dof", "theta"))
-    rows = _rows(np.asarray(table.axes.get("omega", ()), float), omega)
-    if values is None or rows is None:
+    try:
+        known, values = radiation_of(database)
+    except DatabaseError:
         return None
     labels, motions = found
-    names = [str(name) for name in table.axes["radiating_dof"]]
-    places = [_place(label, names, len(database.bodies)) for label in labels]
-    if any(place is None for place in places):
+    if any(label not in known for label in labels):
         return None
-    own = values[rows][:, [p for p in places if p is not None]]
+    own = values[:, [known.index(label) for label in labels]]
     if not np.isfinite(own).all():
         return None
     return np.asarray(np.einsum("whi,wit->wht", motions.conj(), own))  # e^{-iwt}, as H is
-
-
-def _place(label: str, names: list[str], bodies: int) -> int | None:
-    """Return where a coordinate stands among the motions of the source."""
-    body, _, motion = label.rpartition(".")
-    for place, name in enumerate(names):
-        owner, _, word = name.rpartition("__")
-        if word.lower() == motion and (owner == body or bodies == 1):
-            return place
-    return None
-
-
-def _all_round(table: SourceTable) -> bool:
-    """Whether H goes all round in equal steps from 0, without the end."""
-    theta = np.asarray(table.axes.get("theta", ()), dtype=float)
-    return theta.size >= 8 and bool(
-        np.allclose(theta, 2.0 * np.pi * np.arange(theta.size) / theta.size, atol=1e-6)
-    )
-
-
-def _ordered(table: SourceTable, dims: tuple[str, ...]) -> Complex | None:
-    if sorted(table.dims) != sorted(dims):
-        return None
-    order = [table.dims.index(dim) for dim in dims]
-    return np.asarray(table.values, dtype=complex).transpose(order)
-
-
-def _rows(known: Array, wanted: Array) -> np.ndarray | None:
-    """Return the places of the wanted frequencies among those known; None if one is not there."""
-    if not known.size:
-        return None
-    place = np.abs(known[:, None] - wanted).argmin(axis=0)
-    return place if np.allclose(known[place], wanted, rtol=1e-6) else None

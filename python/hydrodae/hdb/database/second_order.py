@@ -48,6 +48,8 @@ class Kind:
 KINDS = {"mean": Kind(1, True), "difference": Kind(2, True), "sum": Kind(2, False)}
 #: Methods whose loads are those of all bodies together.
 OF_ALL_BODIES = ("momentum",)
+#: How the source of a table begins that `hydrodae drift` made for a scene as it moves.
+OF_SCENE = "hydrodae far field"
 #: Headings nearer than this are one [rad].
 SAME_HEADING = 1e-6
 

@@ -39,11 +39,15 @@ class Solution:
         Per unit velocity; rows are loads.
     undisturbed, scattered : (nh, 6 n) complex arrays
         Of plane waves e^{-ik.x} Z_0(z) alone, and of what the bodies add.
+    sent : (6 n + nh, n, 2 orders + 1) complex array
+        Coefficients of the progressive waves that leave each body, H_n(k r) / H_n(k a) e^{i n
+        theta} Z_0(z) about its axis: per unit velocity, then of the plane waves.
     """
 
     radiation: Complex
     undisturbed: Complex
     scattered: Complex
+    sent: Complex
 
 
 @dataclass(frozen=True)
@@ -95,7 +99,22 @@ def solve(
         block = slice(DOFS * i, DOFS * (i + 1))
         radiation[block, block] += own
     total = loads + (received @ answer[:, n * DOFS :]).T
-    return Solution(radiation, plain, total - plain)
+    heard = answer.T.reshape(-1, n, size)
+    return Solution(radiation, plain, total - plain, _sent(parts, heard))
+
+
+def _sent(parts: list[_Order], heard: Complex) -> Complex:
+    """Return coefficients (6 n + nh, n, 2 orders + 1) of the progressive waves of each body.
+
+    `heard` (6 n + nh, n, r): per unit velocity, then of plane waves, these themselves included.
+    """
+    n = heard.shape[1]
+    out = np.empty((len(heard), n, len(parts)), dtype=complex)
+    for k, part in enumerate(parts):
+        out[:, :, k] = heard[:, :, part.rank] @ part.sent[0]
+        for i in range(n):
+            out[DOFS * i : DOFS * (i + 1), i, k] += part.radiated[0]
+    return out
 
 
 def _nearest(places: Array) -> float:

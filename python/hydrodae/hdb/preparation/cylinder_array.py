@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,11 +12,14 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb.checks.check import check
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.all_round import closed, closing_finding
+from hydrodae.hdb.database.extra import SourceTable
 from hydrodae.hdb.database.findings import CheckReport, Finding
+from hydrodae.hdb.database.kochin import DIFFRACTION, RADIATION
 from hydrodae.hdb.database.tables import Body
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.interaction.array import Solution, solve
 from hydrodae.hdb.interaction.cylinder import Cylinder
+from hydrodae.hdb.interaction.far import kochin as kochin_functions
 from hydrodae.hdb.interaction.vertical import outside
 from hydrodae.hdb.labels import DOFS, six_of_each
 from hydrodae.support.arrays import Array, Complex
@@ -72,6 +75,7 @@ def cylinders(
     *,
     orders: int = 4,
     modes: int | None = None,
+    kochin: int = 0,
     progress: Callable[[float, float], None] | None = None,
 ) -> tuple[HydroDatabase, CheckReport]:
     """Compute a database of equal vertical cylinders by interaction theory; `hydrodae hdb array`.
@@ -92,6 +96,8 @@ def cylinders(
     modes : int, optional
         Vertical eigenfunctions; default: 18 over a draught, at most 600. Their number decides the
         cost and most of the error.
+    kochin : int
+        Angles around the circle at which Kochin functions are kept; 0 for none.
     progress : callable, optional
         Called with (frequencies done, of) after each frequency.
 
@@ -113,18 +119,26 @@ def cylinders(
         raise DatabaseError(f"orders {orders}, modes {count}: expected at least 2 and 4").about(
             "option", "orders"
         )
+    if kochin < 0:
+        raise DatabaseError(f"kochin {kochin}: expected a number of angles").about(
+            "option", "kochin"
+        )
     omega = np.append(water.omega, np.inf)
-    solved = []
+    solved: list[Solution] = []
     for i, w in enumerate(omega):
         solved.append(_solve(points, body, water, float(w), orders, count))
         if progress is not None:
             progress(float(i + 1), float(omega.size))
     how = f"{orders} orders, {count} modes"
-    asked = _collect(list(places), points, body, water, solved, how)
+    loads = [_scaled(one, water, float(w)) for one, w in zip(solved, omega, strict=True)]
+    asked = _collect(list(places), points, body, water, loads, how)
+    if kochin:
+        asked = replace(asked, extra=_kochin(list(places), points, body, water, solved, kochin))
     database = closed(asked)
     middle = water.omega.size // 2
     w = float(omega[middle])
-    error = _distance(solved[middle], _solve(points, body, water, w, orders + 2, 2 * count))
+    finer = _solve(points, body, water, w, orders + 2, 2 * count)
+    error = _distance(loads[middle], _scaled(finer, water, w))
     report = CheckReport(
         [
             Finding(
@@ -171,14 +185,52 @@ def _count(body: Cylinder, water: Water) -> int:
 
 def _solve(
     points: Array, body: Cylinder, water: Water, omega: float, orders: int, count: int
-) -> tuple[Complex, Complex, Complex]:
-    """Return A - iB/w (6 n, 6 n), and Froude-Krylov and diffraction (nh, 6 n), at a frequency."""
+) -> Solution:
+    """Return the solution at a frequency, which may be infinite."""
     modes = outside(omega, water.depth, water.gravity, count)
     headings = [] if np.isinf(omega) else list(water.heading)
-    found: Solution = solve(body, points, modes, orders, headings)
+    return solve(body, points, modes, orders, headings)
+
+
+def _scaled(found: Solution, water: Water, omega: float) -> tuple[Complex, Complex, Complex]:
+    """Return A - iB/w (6 n, 6 n), and Froude-Krylov and diffraction (nh, 6 n)."""
     # the loads of plane waves: phi = i g/w Z_0(z)/Z_0(0), F = i w rho int phi n dS
-    height = water.rho * water.gravity / modes.at(water.depth)[0]
+    height = water.rho * water.gravity / _surface(water, omega)
     return -water.rho * found.radiation, -height * found.undisturbed, -height * found.scattered
+
+
+def _surface(water: Water, omega: float) -> float:
+    """Z_0(0) at a frequency."""
+    return float(outside(omega, water.depth, water.gravity, 1).at(water.depth)[0])
+
+
+def _kochin(
+    names: Sequence[str],
+    points: Array,
+    body: Cylinder,
+    water: Water,
+    solved: Sequence[Solution],
+    count: int,
+) -> dict[str, SourceTable]:
+    """Return Kochin functions at so many angles, as Capytaine names and scales them."""
+    theta = 2.0 * np.pi * np.arange(count) / count
+    motions = len(DOFS) * len(names)
+    found = np.empty((water.omega.size, motions + water.heading.size, count), dtype=complex)
+    for row, (w, one) in enumerate(zip(water.omega, solved[:-1], strict=True)):
+        sent = one.sent.copy()
+        # potential of unit velocity to elevation of unit motion, -i w (i w) / g; that of a plane
+        # wave of unit elevation holds Z_0(z) / Z_0(0)
+        sent[:motions] *= w**2 / water.gravity * _surface(water, float(w))
+        far = (body.radius, float(w), water.depth, water.gravity, theta)
+        found[row] = kochin_functions(sent, points, *far)
+    dofs = tuple(f"{name}__{dof.capitalize()}" for name in names for dof in DOFS)
+    axes = {"omega": water.omega, "theta": theta}
+    radiation = {**axes, "radiating_dof": dofs}
+    waves = {**axes, "wave_direction": water.heading}
+    return {
+        RADIATION: SourceTable(found[:, :motions], ("omega", "radiating_dof", "theta"), radiation),
+        DIFFRACTION: SourceTable(found[:, motions:], ("omega", "wave_direction", "theta"), waves),
+    }
 
 
 def _distance(one: tuple[Complex, ...], other: tuple[Complex, ...]) -> float:

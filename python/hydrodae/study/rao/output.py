@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -32,15 +32,30 @@ CONVENTION = (
 LONGEST_PERIOD = 25.0
 
 
-def write(path: str | os.PathLike[str], response: Response) -> Path:
+#: Values (nw,) beside a response, by name, each with its unit.
+Beside = Mapping[str, tuple[str, Array]]
+
+
+def write(path: str | os.PathLike[str], response: Response, beside: Beside | None = None) -> Path:
     """Write all responses; the ending says how: .csv, or .nc and .h5 (netCDF, which is HDF5).
+
+    Parameters
+    ----------
+    path : path
+    response : Response
+    beside : mapping
+        Values over the same frequencies and their units, by name.
 
     Raises
     ------
     CaseError
         Another ending, or a file of another kind is there.
     """
-    return write_either(path, lambda file: _write_csv(file, response), lambda: dataset(response))
+    return write_either(
+        path,
+        lambda file: _write_csv(file, response, beside or {}),
+        lambda: dataset(response, beside),
+    )
 
 
 def write_either(
@@ -74,8 +89,8 @@ def check_output(path: str | os.PathLike[str]) -> Path:
     return outputs.claim(path, outputs.CSV if path.suffix.lower() in CSV else outputs.NETCDF)
 
 
-def dataset(response: Response) -> xarray.Dataset:
-    """All responses over the frequency: amplitude, phase, and the mean powers.
+def dataset(response: Response, beside: Beside | None = None) -> xarray.Dataset:
+    """All responses over the frequency: amplitude, phase, the mean powers, and what is beside.
 
     Returns
     -------
@@ -94,6 +109,8 @@ def dataset(response: Response) -> xarray.Dataset:
         "excitation_power": ("omega", response.excitation_power, {"unit": "W/m2"}),
         "radiated_power": ("omega", response.radiated_power, {"unit": "W/m2"}),
     }
+    for name, (unit, values) in (beside or {}).items():
+        variables[name.replace(" ", "_")] = ("omega", values, {"unit": unit})
     coords = {
         "omega": ("omega", response.omega, {"unit": "rad/s"}),
         "period": ("omega", 2 * np.pi / response.omega, {"unit": "s"}),
@@ -110,18 +127,20 @@ def dataset(response: Response) -> xarray.Dataset:
     )
 
 
-def _write_csv(path: Path, response: Response) -> None:
-    with outputs.whole(path) as beside, beside.open("w", newline="") as file:
+def _write_csv(path: Path, response: Response, beside: Beside) -> None:
+    with outputs.whole(path) as partial, partial.open("w", newline="") as file:
         rows = csv.writer(file)
         head = ["omega [rad/s]", "period [s]"]
         for name, unit in zip(response.names, response.units, strict=True):
             head += [f"{name} amplitude [{unit}]", f"{name} phase [rad]"]
-        rows.writerow(head + [f"{name} mean power [W/m2]" for name in response.power])
+        head += [f"{name} mean power [W/m2]" for name in response.power]
+        rows.writerow(head + [f"{name} [{unit}]" for name, (unit, _) in beside.items()])
         for k, w in enumerate(response.omega):
             row = [w, 2.0 * np.pi / w]
             for value in response.values[k]:
                 row += [abs(value), float(np.angle(value))]
-            rows.writerow([f"{x:.9g}" for x in row + [p[k] for p in response.power.values()]])
+            row += [p[k] for p in response.power.values()]
+            rows.writerow([f"{x:.9g}" for x in row + [v[k] for _, v in beside.values()]])
 
 
 def draw(response: Response, title: str, names: Sequence[str] | None = None) -> Figure:

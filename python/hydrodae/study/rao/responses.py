@@ -13,6 +13,9 @@ import numpy as np
 from hydrodae.case.case import CaseLike
 from hydrodae.errors import CaseError
 from hydrodae.linear import LinearModel, Mode, Response
+from hydrodae.study.drift.far_field import Drift, drift_of
+from hydrodae.study.drift.scene import Surroundings
+from hydrodae.study.drift.text import columns
 from hydrodae.study.rao import output, text
 from hydrodae.study.rao.regular_waves import Harmonic, time_domain
 from hydrodae.support.arrays import Array
@@ -76,6 +79,17 @@ class Rao:
         """
         return self.model.irregular()
 
+    def drift(self) -> Drift:
+        """Return mean drift in the waves of `response`, or at the periods asked for.
+
+        Raises
+        ------
+        CaseError, DatabaseError
+            As `hydrodae.drift`.
+        """
+        shown = self.response if self.periods is None else self.chosen
+        return drift_of(Surroundings(self.model), np.unique(shown.omega), [shown.heading])
+
     def regular_waves(
         self, *, amplitude: float = 0.01, settle: float = 100.0, jobs: int | None = None
     ) -> list[Harmonic]:
@@ -114,20 +128,23 @@ class Rao:
             jobs=jobs,
         )
 
-    def write(self, path: str | os.PathLike[str]) -> Path:
+    def write(self, path: str | os.PathLike[str], drift: Drift | None = None) -> Path:
         """Write all responses: at the periods asked for, else over all frequencies.
 
         Parameters
         ----------
         path : path
             Its ending says how: .csv, or .nc and .h5 (netCDF, which is HDF5).
+        drift : Drift, optional
+            Mean drift of the same case and frequencies, written beside.
 
         Raises
         ------
         CaseError
             Another ending.
         """
-        return output.write(path, self.response if self.periods is None else self.chosen)
+        shown = self.response if self.periods is None else self.chosen
+        return output.write(path, shown, {} if drift is None else columns(drift, shown.omega))
 
     def draw(self) -> Figure:
         """Draw the amplitudes over the period [s].
