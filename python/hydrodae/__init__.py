@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     from hydrodae.study.chart import chart, recommend
     from hydrodae.study.check import check
     from hydrodae.study.equilibrium import equilibrium
+    from hydrodae.study import extremes as extremes
     from hydrodae.study.gradient import gradient, objective
     from hydrodae.study.ladder import ladder
     from hydrodae.study.rao import rao
@@ -123,6 +124,7 @@ _MODULES = {
     "calibration": "study.calibrate",
     "case": "case",
     "control": "control",
+    "extremes": "study.extremes",
     "fmu": "fmu",
     "frequency": "linear",
     "hdb": "hdb",
