@@ -50,7 +50,8 @@ class Transfer:
             names = [*self.units]
             known = f"; there are: {', '.join(names)}"
             raise CaseError(
-                f"the linear model has no channel {channel!r}{did_you_mean(channel, names, known)}"
+                f"the linear model has no channel {channel!r}{did_you_mean(channel, names, known)}",
+                key="channel",
             )
         return channel
 

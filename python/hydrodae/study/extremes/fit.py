@@ -19,8 +19,8 @@ from hydrodae.study.extremes.distributions import (
 )
 from hydrodae.support.arrays import Array
 
-#: Fewest maxima of a fit: of fewer the interval of three parameters covers less than 90 of 100
-#: (measured by tests/verification/test_extremes_fits.py).
+#: Fewest maxima of a fit: intervals of so few cover 90 to 99 of 100, as
+#: tests/verification/test_extremes_fits.py measures; nothing is known of fewer.
 FEWEST = 15
 #: Twice the fall of the logarithm of the likelihood at the ends of a 95 % interval: chi-squared, 1.
 FALL = float(chdtri(1, 0.05))
@@ -120,7 +120,8 @@ class Fit:
         if not self.family.blocks and y >= 1.0:
             raise CaseError(
                 f"{seconds / 3600.0:.4g} h: there is one cluster in {self.span:.4g} s: the level "
-                f"lies below the threshold {self.threshold:.4g}; take a lower one"
+                f"lies below the threshold {self.threshold:.4g}; take a lower one",
+                key="hours",
             )
         value = float(self.loc + self.scale * steps(y, self.shape))
         low, high = (self._end(value, y, sign) for sign in (-1.0, 1.0))
@@ -207,13 +208,14 @@ def fit_maxima(
     if len(x) < FEWEST:
         more = "shorter blocks" if kind.blocks else "a lower threshold"
         raise CaseError(
-            f"{len(x)} {what}: a fit needs at least {FEWEST}; take longer runs, more seeds or {more}"
+            f"{len(x)} {what}: a fit needs at least {FEWEST}; take longer runs, more seeds or {more}",
+            key="block" if kind.blocks else "threshold",
         )
     if not np.isfinite(x).all():
         raise CaseError(f"{what}: {int((~np.isfinite(x)).sum())} are not finite")
     center, size = float(x.mean()), float(x.std())
     if not size > 1e-12 * max(abs(center), 1e-300):
-        raise CaseError(f"{what}: all are {center:.6g}: there is no distribution to fit")
+        raise CaseError(f"{what}: all are {center:.6g}: there is no distribution to fit", key="channel")
     z = (x - center) / size
     limit = None if threshold is None else (threshold - center) / size
     loc, scale, shape = fit_parameters(kind, z, limit)

@@ -41,8 +41,6 @@ def fit_gumbel(x: Array) -> tuple[Array, Array]:
     return center[..., 0] + size[..., 0] * loc, size[..., 0] * scale
 
 
-def random_gumbel(
-    generator: np.random.Generator, loc: Array, scale: Array, shape: tuple[int, ...]
-) -> Array:
-    """Samples of a shape, with loc and scale that fit to it."""
-    return np.asarray(loc - scale * np.log(-np.log(generator.random(shape))))
+def random_gumbel(generator: np.random.Generator, shape: tuple[int, ...]) -> Array:
+    """Samples of the standard distribution, loc 0 and scale 1."""
+    return np.asarray(-np.log(-np.log(generator.random(shape))))

@@ -189,6 +189,8 @@ def likely_wave(
     transfer.check(channel)
     waves = spectral_components(model.case, components)
     h, energy = transfer.in_waves(channel, waves), 0.5 * waves[:, 2] ** 2
+    if not np.abs(h).max() > 0.0:
+        raise CaseError(f"{channel}: the linear response is zero in this sea", key="channel")
     narrow = Narrow.of(waves[:, 0], np.abs(h) ** 2 * energy)
     if response is None:
         share = once() if exceedance is None else exceedance
@@ -196,9 +198,9 @@ def likely_wave(
         said: tuple[float | None, float | None] = hours, share
     else:
         if not math.isfinite(response) or response == 0.0:
-            raise CaseError(f"response {response:g}: expected a number other than 0")
+            raise CaseError(f"response {response:g}: expected a number other than 0", key="response")
         if least or exceedance is not None:
-            raise CaseError("response: a given level excludes exceedance and least")
+            raise CaseError("response: a given level excludes exceedance and least", key="response")
         level, said = response, (None, None)
     a, phase = amplitudes(h, energy, level)
     at = _peak_time(model.case, time)
@@ -226,7 +228,7 @@ def spectral_components(case: Case, count: int) -> Array:
         There is no wave, one has no spectrum, or the number of components is wrong.
     """
     if not 2 <= count <= 100_000:
-        raise CaseError(f"components {count}: expected 2 to 100000")
+        raise CaseError(f"components {count}: expected 2 to 100000", key="components")
     waves = case_tables(case).get("wave", [])
     for wave in waves:
         if wave["type"] in WITHOUT_SPECTRUM:
@@ -253,7 +255,8 @@ def _peak_time(case: Case, time: float | None) -> float:
     if not ramp <= time <= end:
         raise CaseError(
             f"time {time:g} s: expected a time from the end of the ramp, {ramp:g} s, to the end of "
-            f"the case, {end:g} s"
+            f"the case, {end:g} s",
+            key="time",
         )
     return time
 

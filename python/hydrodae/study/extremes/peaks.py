@@ -123,7 +123,8 @@ def clusters(records: Sequence[Record], threshold: float | None = None) -> Clust
     if not count:
         raise CaseError(
             f"threshold {level:.4g}: too high, no crest exceeds it; the highest is "
-            f"{crests.max():.4g}, and a tenth exceed {np.quantile(crests, 1.0 - EXCEEDING):.4g}"
+            f"{crests.max():.4g}, and a tenth exceed {np.quantile(crests, 1.0 - EXCEEDING):.4g}",
+            key="threshold",
         )
     gaps = np.concatenate([np.diff(number) for number, _ in above])
     theta = extremal_index(gaps)

@@ -73,7 +73,7 @@ def crossings_of(exceedance: float) -> float:
         p is not between 0 and 1.
     """
     if not 0.0 < exceedance < 1.0:
-        raise CaseError(f"exceedance {exceedance:g}: expected a probability between 0 and 1")
+        raise CaseError(f"exceedance {exceedance:g}: expected a probability between 0 and 1", key="exceedance")
     return -math.log1p(-exceedance)
 
 
@@ -96,12 +96,13 @@ def largest(narrow: Narrow, hours: float, exceedance: float) -> float:
         T is too short: not one crossing is expected at the mean.
     """
     if not (hours > 0.0 and math.isfinite(hours)):
-        raise CaseError(f"hours {hours:g}: expected a number > 0")
+        raise CaseError(f"hours {hours:g}: expected a number > 0", key="hours")
     waves = narrow.rate * hours * HOUR / crossings_of(exceedance)
     if waves <= 1.0:
         raise CaseError(
             f"hours {hours:g}: so short a time has no such extreme; the mean period of the "
-            f"response is {narrow.period:.3g} s"
+            f"response is {narrow.period:.3g} s",
+            key="hours",
         )
     return narrow.deviation * math.sqrt(2.0 * math.log(waves))
 

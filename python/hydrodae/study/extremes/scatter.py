@@ -48,7 +48,7 @@ def read_scatter(path: str | os.PathLike[str]) -> ScatterTable:
         values = np.array([[float(row[name]) for name in COLUMNS] for row in rows])
     except (KeyError, ValueError) as error:
         raise CaseError(
-            f"{file}: expected numbers in columns height, period, hours; {error}"
+            f"{file}: expected numbers in columns height, period, hours; {error}", key="scatter"
         ) from None
     if not np.isfinite(values).all() or (values < 0.0).any():
         raise CaseError(f"{file}: a height, period or number of hours is negative or not finite")
