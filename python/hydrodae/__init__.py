@@ -39,12 +39,12 @@ if TYPE_CHECKING:
     from hydrodae.results import Results, ResultsError
     from hydrodae.simulation import Simulation, run
     from hydrodae.study import calibrate as calibration  # noqa: F401
+    from hydrodae.study import extremes as extremes
     from hydrodae.study.band import working_band
     from hydrodae.study.calibrate import calibrate
     from hydrodae.study.chart import chart, recommend
     from hydrodae.study.check import check
     from hydrodae.study.equilibrium import equilibrium
-    from hydrodae.study import extremes as extremes
     from hydrodae.study.gradient import gradient, objective
     from hydrodae.study.ladder import ladder
     from hydrodae.study.rao import rao

@@ -34,8 +34,11 @@ def _add_wave(commands: Any) -> None:
         "extreme, in the sea of the case.",
     )
     add_case(wave, "case file (TOML) with irregular waves")
-    wave.add_argument("channel", metavar="CHANNEL", help="of the linear model, such as bodies/float/heave or "
-                      "forces/pto/force")  # fmt: skip
+    wave.add_argument(
+        "channel",
+        metavar="CHANNEL",
+        help="of the linear model, such as bodies/float/heave or forces/pto/force",
+    )
     level = wave.add_mutually_exclusive_group()
     level.add_argument(
         "--response", metavar="X", type=float, help="level about rest, in the unit of the channel"
@@ -124,7 +127,7 @@ def _add_contour(commands: Any) -> None:
     source.add_argument(
         "--model",
         metavar="A,B,C,A1,A2,A3,B1,B2,B3",
-        help="joint model of DNV-RP-C205 in place of a table; --model=... if it begins with a minus",
+        help="joint model of DNV-RP-C205 in place of a table; --model=... if it begins with -",
     )
     contour.add_argument("--years", metavar="N1,N2,...", default="50", help="return periods (50)")
     contour.add_argument(
@@ -221,7 +224,17 @@ def _wave(arguments: argparse.Namespace) -> Told:
         write_components(arguments.output, found)
     if arguments.copy:
         write_case(case, arguments.output, arguments.copy)
-    names = ("channel", "unit", "level", "at_rest", "time", "hours", "exceedance", "crest", "trough")
+    names = (
+        "channel",
+        "unit",
+        "level",
+        "at_rest",
+        "time",
+        "hours",
+        "exceedance",
+        "crest",
+        "trough",
+    )
     content = {name: getattr(found, name) for name in (*names, "notes")} | {
         "standard_deviation": found.narrow.deviation,
         "mean_period": found.narrow.period,
@@ -247,9 +260,7 @@ def _fit(arguments: argparse.Namespace) -> Told:
             start=arguments.start,
             progress=None if arguments.quiet else progress,
         )
-    rows = [
-        [h, x.value, x.low, x.high] for h, x in zip(found.hours, found.levels, strict=True)
-    ]
+    rows = [[h, x.value, x.low, x.high] for h, x in zip(found.hours, found.levels, strict=True)]
     fit = found.fit
     content = {
         "channel": found.channel,

@@ -15,7 +15,7 @@ from hydrodae.linear.response import unit_of
 from hydrodae.support.arrays import Array, Complex
 from hydrodae.support.nearest import did_you_mean
 
-#: Relative difference up to which a load and a tension are one number: rounding of a sum of squares.
+#: Relative difference up to which a load and a tension are one number: rounding of squares.
 SAME = 1e-6
 
 
@@ -101,7 +101,9 @@ def _take_offs(model: LinearModel, tables: Mapping[str, Any]) -> dict[str, _Forc
         if not force.get("type", "").startswith("pto") or damper.name in model.owners_of_states:
             continue
         row = np.asarray(damper.row, dtype=float)
-        moves = [name for name in model.channels.names if name.startswith(f"joints/{force['joint']}/")]
+        moves = [
+            name for name in model.channels.names if name.startswith(f"joints/{force['joint']}/")
+        ]
         turns = unit_of(moves[0]).startswith("rad") if moves else False
         name = f"forces/{damper.name}/{'torque' if turns else 'force'}"
         unit = "N m" if turns else "N"
@@ -121,7 +123,9 @@ def _tensions(model: LinearModel, tables: Mapping[str, Any]) -> dict[str, _Force
         moves = np.zeros((3 * count, len(model.coordinates)))
         for k, body in enumerate(hold["bodies"]):
             if body >= 0:
-                moves[3 * k : 3 * k + 3] = bodies.twist(names[body], np.asarray(hold["places"][k]))[:3]
+                moves[3 * k : 3 * k + 3] = bodies.twist(names[body], np.asarray(hold["places"][k]))[
+                    :3
+                ]
         loads = load.reshape(-1, 3)
         for name, value, unit in zip(hold["channels"], hold["values"], hold["units"], strict=True):
             ends = np.flatnonzero(np.isclose(np.linalg.norm(loads, axis=1), value, rtol=SAME))

@@ -156,9 +156,7 @@ def design_value(
             f"the shape, {fit.shape:.2g}, is at the end of the range of the fit: the maxima do not "
             "follow this distribution"
         )
-    return Design(
-        channel, unit, fit, tuple(durations), tuple(levels), share, least, found, notes
-    )
+    return Design(channel, unit, fit, tuple(durations), tuple(levels), share, least, found, notes)
 
 
 def _check_one_sea(keys: dict[str, str], dims: Sequence[object]) -> None:

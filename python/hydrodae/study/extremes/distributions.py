@@ -36,7 +36,7 @@ def steps(y: Any, shape: float) -> Any:
 
 
 def _reduced(x: Array, loc: float, scale: float, shape: float) -> Array | None:
-    """u with x = loc + scale (e^(shape u) - 1) / shape; None where a value lies outside."""
+    """Number u with x = loc + scale (e^(shape u) - 1) / shape; None where a value lies outside."""
     z = (x - loc) / scale
     if abs(shape) < SMALL:
         return np.asarray(z - 0.5 * shape * z**2)
@@ -125,17 +125,17 @@ def fit_parameters(family: Family, x: Array, threshold: float | None) -> tuple[f
     for shape in shapes:
         start = [scale0, shape] if family.shaped else [scale0]
         if family.blocks:
-            start.append((center - 0.45 * size))
-        found = smallest(lambda p: family.loss(x, *_unpacked(family, p, threshold)), np.array(start))
+            start.append(center - 0.45 * size)
+        found = smallest(
+            lambda p: family.loss(x, *_unpacked(family, p, threshold)), np.array(start)
+        )
         if best is None or found[1] < best[1]:
             best = found
     assert best is not None
     return _unpacked(family, best[0], threshold)
 
 
-def _unpacked(
-    family: Family, p: Array, threshold: float | None
-) -> tuple[float, float, float]:
+def _unpacked(family: Family, p: Array, threshold: float | None) -> tuple[float, float, float]:
     """loc, scale, shape from what is looked for: ln scale, shape, loc."""
     shape = float(p[1]) if family.shaped else 0.0
     loc = float(p[-1]) if threshold is None else threshold

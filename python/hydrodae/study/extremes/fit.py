@@ -24,8 +24,8 @@ from hydrodae.support.arrays import Array
 FEWEST = 15
 #: Twice the fall of the logarithm of the likelihood at the ends of a 95 % interval: chi-squared, 1.
 FALL = float(chdtri(1, 0.05))
-#: Relative precision of the half widths of intervals: a hundredth of their own uncertainty, which is
-#: at least that of a standard deviation from some hundred maxima.
+#: Relative precision of the half widths of intervals: far below their own uncertainty, which is
+#: 1 / sqrt(2 n), that of a standard deviation from n maxima.
 PRECISION = 1e-3
 #: Scales from the fitted level at which the search for an end of the interval ends.
 FARTHEST = 1e4
@@ -208,14 +208,17 @@ def fit_maxima(
     if len(x) < FEWEST:
         more = "shorter blocks" if kind.blocks else "a lower threshold"
         raise CaseError(
-            f"{len(x)} {what}: a fit needs at least {FEWEST}; take longer runs, more seeds or {more}",
+            f"{len(x)} {what}: a fit needs at least {FEWEST}; take longer runs, more seeds or "
+            f"{more}",
             key="block" if kind.blocks else "threshold",
         )
     if not np.isfinite(x).all():
         raise CaseError(f"{what}: {int((~np.isfinite(x)).sum())} are not finite")
     center, size = float(x.mean()), float(x.std())
     if not size > 1e-12 * max(abs(center), 1e-300):
-        raise CaseError(f"{what}: all are {center:.6g}: there is no distribution to fit", key="channel")
+        raise CaseError(
+            f"{what}: all are {center:.6g}: there is no distribution to fit", key="channel"
+        )
     z = (x - center) / size
     limit = None if threshold is None else (threshold - center) / size
     loc, scale, shape = fit_parameters(kind, z, limit)

@@ -11,7 +11,7 @@ STEPS = 12
 
 
 def fit_gumbel(x: Array) -> tuple[Array, Array]:
-    """loc and scale of samples along the last axis.
+    """Location and scale of samples along the last axis.
 
         scale = mean(x) - sum(x e^(-x/scale)) / sum(e^(-x/scale)),
         loc = -scale ln mean(e^(-x/scale))

@@ -198,7 +198,9 @@ def likely_wave(
         said: tuple[float | None, float | None] = hours, share
     else:
         if not math.isfinite(response) or response == 0.0:
-            raise CaseError(f"response {response:g}: expected a number other than 0", key="response")
+            raise CaseError(
+                f"response {response:g}: expected a number other than 0", key="response"
+            )
         if least or exceedance is not None:
             raise CaseError("response: a given level excludes exceedance and least", key="response")
         level, said = response, (None, None)

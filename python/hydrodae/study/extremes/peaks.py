@@ -100,7 +100,7 @@ def clusters(records: Sequence[Record], threshold: float | None = None) -> Clust
     """Largest crests of the clusters above a threshold.
 
     A wave has one crest. The number of clusters follows from the intervals between the crests that
-    exceed the threshold (Ferro and Segers, J. R. Stat. Soc. B 65, 2003), so no run length is chosen.
+    exceed the threshold (Ferro and Segers, J. R. Stat. Soc. B 65, 2003): no run length is chosen.
 
     Parameters
     ----------

@@ -73,7 +73,9 @@ def crossings_of(exceedance: float) -> float:
         p is not between 0 and 1.
     """
     if not 0.0 < exceedance < 1.0:
-        raise CaseError(f"exceedance {exceedance:g}: expected a probability between 0 and 1", key="exceedance")
+        raise CaseError(
+            f"exceedance {exceedance:g}: expected a probability between 0 and 1", key="exceedance"
+        )
     return -math.log1p(-exceedance)
 
 

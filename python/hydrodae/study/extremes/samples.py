@@ -138,9 +138,13 @@ def read_sweep(path: str | os.PathLike[str], name: str) -> SweepMaxima:
     keys = {str(d): str(data[d].attrs.get("key", d)) for d in values.dims if d in data.coords}
     for key in ("solver.end_time", "sea.ramp"):
         if key in keys.values():
-            raise CaseError(f"{file}: {key} varies in the sweep: its maxima are of several durations")
+            raise CaseError(
+                f"{file}: {key} varies in the sweep: its maxima are of several durations"
+            )
     tables = tables_of(data.attrs["case"], data.attrs.get("overrides", ""))
-    begin = max(float(tables.get("sea", {}).get("ramp", 0.0)), float(results[name].get("from", 0.0)))
+    begin = max(
+        float(tables.get("sea", {}).get("ramp", 0.0)), float(results[name].get("from", 0.0))
+    )
     seconds = float(tables["solver"]["end_time"]) - begin
     sign = SIGNS[results[name]["statistic"]]
     if not (seconds > 0.0 and math.isfinite(seconds)):

@@ -82,8 +82,8 @@ def design(found: Design) -> str:
         f"shape {fit.shape:.3g}"
     )
     lines.append(
-        f"  quantiles: correlation {correlation:.4f}, difference {100 * away:.2g} % of the standard "
-        "deviation"
+        f"  quantiles: correlation {correlation:.4f}, difference {100 * away:.2g} % of the "
+        "standard deviation"
     )
     lines.append(f"  {'duration':>10} {'level, ' + unit:>14}   95 % interval, exceeded with "
                  f"{100 * found.exceedance:.3g} %")  # fmt: skip

@@ -76,7 +76,9 @@ def write_case(
             replace_value(lines, case, key, value)
     named = os.path.relpath(file.resolve(), case.directory.resolve())
     text = "\n".join(_with_wave(lines, named)) + "\n"
-    if _without_wave(tomllib.loads(text.removeprefix("\ufeff"))) != _without_wave(case_tables(case)):
+    if _without_wave(tomllib.loads(text.removeprefix("\ufeff"))) != _without_wave(
+        case_tables(case)
+    ):
         raise CaseError(f"{target}: the copy would not be the same case; write the wave by hand")
     outputs.write_text(outputs.claim(target, "TOML file"), text)
     return target
