@@ -1,7 +1,7 @@
 """Environmental contours of height and period by the inverse first-order reliability method.
 
 Winterstein et al. (ICOSSAR 1993): sea states of a return period are on a circle of radius beta of
-independent standard normal numbers u1, u2, Phi(-beta) = D / (N years), and by Rosenblatt's
+independent standard normal numbers u1, u2, with Phi(-beta) = D / (N years). By Rosenblatt's
 transformation F_H(h) = Phi(u1), F_T|H(t | h) = Phi(u2). The joint model is that of DNV-RP-C205
 (3.6.3): H has a Weibull distribution of three parameters, T | H is lognormal,
 

@@ -84,7 +84,8 @@ class Fit:
             Root of the mean square of their difference over the standard deviation of the maxima.
         """
         n = len(self.maxima)
-        expected = self.quantile((np.arange(1, n + 1) - 0.44) / (n + 0.12))  # Gringorten 1963
+        place = np.asarray((np.arange(1, n + 1) - 0.44) / (n + 0.12), dtype=np.float64)
+        expected = self.quantile(place)  # Gringorten 1963
         away = float(np.sqrt(np.mean((expected - self.maxima) ** 2)) / self.maxima.std())
         return float(np.corrcoef(expected, self.maxima)[0, 1]), away
 

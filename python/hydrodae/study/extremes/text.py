@@ -2,21 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 
 from hydrodae.study.extremes.rayleigh import interval
 from hydrodae.support.units import displayed
 
-if TYPE_CHECKING:
-    from hydrodae.study.extremes.contour import Contour
-    from hydrodae.study.extremes.design import Design
-    from hydrodae.study.extremes.likely_wave import LikelyWave
-    from hydrodae.study.extremes.long_term import LongTerm
-
-#: From this size on a number is printed in thousands of its unit, then in millions.
-THOUSAND = 1e3
 #: Units that have thousands.
 LARGE = ("N", "N m", "W", "J", "Pa")
 
@@ -36,7 +28,7 @@ def in_unit(size: float, unit: str) -> tuple[float, str]:
     return displayed(unit)
 
 
-def likely_wave(found: LikelyWave) -> str:
+def likely_wave(found: Any) -> str:
     """Crest, trough and response of the most likely wave."""
     factor, unit = in_unit(found.level, found.unit)
     lines = [f"note: {note}" for note in found.notes]
@@ -58,7 +50,7 @@ def likely_wave(found: LikelyWave) -> str:
     return "\n".join(lines)
 
 
-def design(found: Design) -> str:
+def design(found: Any) -> str:
     """Levels of each duration with their intervals, and how well the distribution fits."""
     fit = found.fit
     factor, unit = in_unit(max(abs(x.value) for x in found.levels), found.unit)
@@ -95,7 +87,7 @@ def design(found: Design) -> str:
     return "\n".join(lines)
 
 
-def long_term(found: LongTerm) -> str:
+def long_term(found: Any) -> str:
     """Return levels, and the sea states that most of their crossings are from."""
     factor, unit = in_unit(float(np.abs(found.levels).max()), found.unit)
     how = "linear model" if found.source.startswith("l") else "Gumbel distributions of runs"
@@ -117,7 +109,7 @@ def long_term(found: LongTerm) -> str:
     return "\n".join(lines)
 
 
-def contour(found: Contour) -> str:
+def contour(found: Any) -> str:
     """Joint model, and the sea states of each contour."""
     m = found.model
     lines = [f"note: {note}" for note in found.notes]
