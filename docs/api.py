@@ -21,6 +21,7 @@ KERNEL = ROOT / "cpp" / "hydrodae"
 MODULES = ("hydrodae", "hydrodae.hdb", "hydrodae.results", "hydrodae.mooring", "hydrodae.arrays")
 MODULES += ("hydrodae.control", "hydrodae.tcp", "hydrodae.fmu", "hydrodae.records")
 MODULES += ("hydrodae.report", "hydrodae.plot", "hydrodae.schema", "hydrodae.tables")
+MODULES += ("hydrodae.extremes",)
 
 
 def plain(text: str) -> str:

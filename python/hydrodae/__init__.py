@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from hydrodae.results import Results, ResultsError
     from hydrodae.simulation import Simulation, run
     from hydrodae.study import calibrate as calibration  # noqa: F401
+    from hydrodae.study import extremes as extremes
     from hydrodae.study.band import working_band
     from hydrodae.study.calibrate import calibrate
     from hydrodae.study.chart import chart, recommend
@@ -126,6 +127,7 @@ _MODULES = {
     "calibration": "study.calibrate",
     "case": "case",
     "control": "control",
+    "extremes": "study.extremes",
     "fmu": "fmu",
     "frequency": "linear",
     "hdb": "hdb",

@@ -40,6 +40,7 @@ RUN_COMMANDS = (
     "docs/control.md",
     "docs/conventions.md",
     "docs/databases.md",
+    "docs/extremes.md",
     "docs/faq.md",
     "docs/first_steps.md",
     "docs/forces.md",

@@ -28,6 +28,12 @@ EXAMPLES = {
         "hydrodae sweep power_matrix.toml --jobs 4 -o power.nc",
         "hydrodae sweep best_damper.toml --optimise",
     ),
+    "extremes": (
+        "hydrodae extremes wave case.toml bodies/float/heave --hours 3 -o wave.csv",
+        "hydrodae extremes fit storm_*.h5 --channel forces/bow/tension --distribution gpd",
+        "hydrodae extremes years case.toml --channel bodies/float/heave --scatter scatter.csv",
+        "hydrodae extremes contour scatter.csv --years 1,50 -o contours.csv",
+    ),
     "calibrate": (
         "hydrodae calibrate case.toml --record decay.csv --parameter force.brake.damping=0,1e4 "
         "--channel joints/slide/displacement=heave:mm",

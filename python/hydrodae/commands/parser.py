@@ -60,6 +60,10 @@ COMMANDS = {
         "Run every point of a study. Finished runs are kept at once: an interrupted or killed "
         "sweep continues where it stopped. A run that fails is a row with its reason.",
     ),
+    "extremes": (
+        "design values: most likely waves, maxima of runs, return levels of years, contours",
+        None,
+    ),
     "calibrate": (
         "fit parameters of a case to what was measured in a tank",
         "Fit numbers of a case to measured channels of one or several tests, by least squares. The "

@@ -170,6 +170,11 @@ class LinearModel:
         return other
 
     @property
+    def owners_of_states(self) -> tuple[str, ...]:
+        """Names of the forces that have states, one for each state."""
+        return tuple(self._model["state_of"])
+
+    @property
     def water_points(self) -> list[Array]:
         """Points of the Morison elements that move, one a segment, world axes [m]."""
         return [np.asarray(point, dtype=float) for point in self._model["water_points"]]

@@ -156,7 +156,7 @@ class Results(Recording):
 
         if start is None:
             start = self.settled
-        series = self._series(name)
+        series = self.series(name)
         try:
             unit = str(series.attrs.get("unit", "-"))
             return statistics(
@@ -171,8 +171,19 @@ class Results(Recording):
         except ValueError as error:
             raise ResultsError(f"{self.path}: {error}") from None
 
-    def _series(self, name: str) -> xarray.DataArray:
-        """Return a channel of one number, or one component of a vector."""
+    def series(self, name: str) -> xarray.DataArray:
+        """Return a channel of one number, or one component of a vector.
+
+        Parameters
+        ----------
+        name : str
+            Such as "joints/hinge1/angle" or "bodies/base/position.z".
+
+        Raises
+        ------
+        ChannelError
+            There is no such channel or component, or it has several components.
+        """
         base, _, component = name.rpartition(".")
         if name in self or base not in self:
             base, component = name, ""

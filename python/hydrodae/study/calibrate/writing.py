@@ -39,7 +39,7 @@ def write_case(
     lines = before.text.splitlines()
     given = {key: tomllib.loads(f"x = {text}")["x"] for key, text in before.overrides.items()}
     for key, value in {**given, **keys}.items():
-        _replace(lines, before, key, value)
+        replace_value(lines, before, key, value)
     text = "\n".join(lines) + "\n"
     copy = Case.from_text(text, folder, libraries=before.libraries)
     if case_tables(copy) != case_tables(fitted):
@@ -48,7 +48,8 @@ def write_case(
     return target
 
 
-def _replace(lines: list[str], case: Case, key: str, value: Any) -> None:
+def replace_value(lines: list[str], case: Case, key: str, value: Any) -> None:
+    """Replace the value of a key in the lines of a case; raises CaseError where it cannot."""
     file, line, column = case.scene.places.get(key, ("", 0, 0))
     by_hand = f"write it by hand: {key} = {to_toml(value, key)}"
     match = _ASSIGNMENT.match(lines[line - 1]) if line else None
