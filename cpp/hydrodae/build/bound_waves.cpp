@@ -30,7 +30,7 @@ double height_of(const model::Scene& scene) {
   return std::sqrt(squares);
 }
 
-std::string percent(double part) { return rounded_text(100.0 * part, 3) + " %"; }
+std::string percent_of(double part) { return rounded_text(100.0 * part, 3) + " %"; }
 
 } // namespace
 
@@ -61,8 +61,8 @@ void add_bound_waves(const model::Scene& scene, Sea& sea) {
       "; Morison elements and lines feel the " +
       std::to_string(std::min(bound.all, static_cast<std::size_t>(scene.sea.second_order_terms))) +
       " largest of " + std::to_string(bound.all) +
-      " bound waves (second_order_terms): " + percent(bound.elevation) +
-      " of the rms of their elevation and " + percent(bound.speed) +
+      " bound waves (second_order_terms): " + percent_of(bound.elevation) +
+      " of the rms of their elevation and " + percent_of(bound.speed) +
       " of that of their velocity at the surface";
 }
 

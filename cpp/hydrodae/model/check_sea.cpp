@@ -29,7 +29,7 @@ void check_profile(const Scene& scene) {
 }
 
 /// Refuses second order where nothing feels it, and its keys without it.
-void check_order(const Scene& scene, bool slender) {
+void check_wave_order(const Scene& scene, bool slender) {
   const sea::Sea& sea = scene.sea;
   if (sea.order == 1) {
     if (sea.second_order_limit)
@@ -71,7 +71,7 @@ void check_sea(const Scene& scene) {
         profiled ? "sea.current_profile" : "sea.current",
         "a current acts on [[morison]] elements and lines, and the case has no such element");
   check_profile(scene);
-  check_order(scene, slender);
+  check_wave_order(scene, slender);
   if (scene.sea.ramp > 0.0 && scene.waves.empty())
     throw ModelError("sea.ramp", "there is no [[wave]] to ramp up");
 }

@@ -8,13 +8,13 @@ namespace hydrodae::sea {
 namespace {
 
 /// tanh kd, 1 in deep water.
-double bed(double wavenumber, double depth) {
+double tanh_kd(double wavenumber, double depth) {
   return std::isfinite(depth) ? std::tanh(wavenumber * depth) : 1.0;
 }
 
 /// F_i: (phi_tt + g phi_z)_z of a component of 1 m, zero in deep water [m/s3].
 double steepening(const Component& c, double depth, double gravity) {
-  const double t = bed(c.wavenumber, depth), k = gravity * c.wavenumber;
+  const double t = tanh_kd(c.wavenumber, depth), k = gravity * c.wavenumber;
   return -k * k * (1.0 - t * t) / c.omega;
 }
 
@@ -49,13 +49,14 @@ BoundWave bound_wave(const Component& first, const Component& second, int sign, 
   out.kx = x1 + s * x2;
   out.ky = y1 + s * y2;
   const double W = out.omega, K = std::hypot(out.kx, out.ky);
-  const double Q =
-      g * g * (x1 * x2 + y1 * y2 - s * k1 * k2 * bed(k1, depth) * bed(k2, depth)) / (w1 * w2);
+  const double Q = g * g *
+                   (x1 * x2 + y1 * y2 - s * k1 * k2 * tanh_kd(k1, depth) * tanh_kd(k2, depth)) /
+                   (w1 * w2);
   const double F = steepening(first, depth, g) + s * steepening(second, depth, g);
   // Waves of one frequency make a steady pattern without flow; in one direction 0 / 0 up to
   // rounding.
   if (std::abs(W) > 1e-12 * (w1 + w2))
-    out.potential = (W * Q - 0.5 * F) / (g * K * bed(K, depth) - W * W);
+    out.potential = (W * Q - 0.5 * F) / (g * K * tanh_kd(K, depth) - W * W);
   out.elevation = -(W * out.potential + 0.5 * Q - 0.5 * (w1 * w1 + w2 * w2)) / g;
   return out;
 }
