@@ -41,8 +41,8 @@ void check_wave_order(const Scene& scene, bool slender) {
   if (scene.waves.empty())
     throw ModelError("sea.order", "there is no [[wave]] that could have bound waves");
   if (!slender && scene.gauges.empty())
-    throw ModelError("sea.order", "order = 2 acts on [[gauge]], [[morison]] and lines, and the "
-                                  "case has none of them");
+    throw ModelError("sea.order", "order = 2 acts on [[gauge]], [[morison]] and lines: add one of "
+                                  "them, or leave order = 1");
 }
 
 } // namespace

@@ -6,8 +6,8 @@
 ///   phi2_tt + g phi2_z = -eta (phi_tt + g phi_z)_z - (|grad phi|^2)_t
 ///   g eta2 = -(phi2_t + 1/2 |grad phi|^2 + eta phi_tz)
 ///
-/// Two components with th_i = w_i t - k_i.x + phase_i and a = 1 m make, with s = 1 for the sum and
-/// s = -1 for the difference, t_i = tanh k_i d, W = w_1 + s w_2 and K = |k_1 + s k_2|:
+/// Two components of a = 1 m have th_i = w_i t - k_i.x + phase_i and t_i = tanh k_i d. With s = 1
+/// for the sum, s = -1 for the difference, W = w_1 + s w_2 and K = |k_1 + s k_2| they make
 ///
 ///   phi2 = P cosh K(z+d) / cosh Kd sin(th_1 + s th_2),   eta2 = E cos(th_1 + s th_2)
 ///   P = (W Q - (F_1 + s F_2) / 2) / (g K tanh Kd - W^2)
