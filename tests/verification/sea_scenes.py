@@ -66,4 +66,4 @@ def _sum(case: hydrodae.Case, t: Any, x: float, y: float, factor: Any = 1.0) -> 
     w, heading, a, phase = wave_components(case).T
     along = x * np.cos(heading) + y * np.sin(heading)
     angle = np.multiply.outer(np.asarray(t, dtype=float), w) - w**2 / 9.81 * along + phase
-    return np.exp(1j * angle) @ (a * factor)
+    return np.asarray(np.exp(1j * angle) @ (a * factor))

@@ -40,7 +40,7 @@ def test_equal_rows_are_a_uniform_current_in_waves() -> None:
         hydrodae.run(strut(JONSWAP, sea=sea))["forces/water/strut/force"].to_numpy()
         for sea in ({"current_profile": rows}, {"current": flow})
     ]
-    np.testing.assert_allclose(*runs, rtol=1e-10, atol=1e-10)
+    np.testing.assert_allclose(runs[0], runs[1], rtol=1e-10, atol=1e-10)
 
 
 def hanging(sea: str) -> np.ndarray:

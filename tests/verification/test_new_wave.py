@@ -11,7 +11,7 @@ from tests.verification.sea_scenes import JONSWAP, elevation, gauge, rate, strut
 import hydrodae
 from hydrodae.linear.sea import wave_components
 
-CREST = {"height": 5.0, "time": 7.0, "place": [30.0, -12.0]}
+CREST: Table = {"height": 5.0, "time": 7.0, "place": [30.0, -12.0]}
 NEW: Table = dict(name="design", type="new_wave", peak_period=10.0, heading_deg=25.0, crest=CREST)
 
 

@@ -29,7 +29,7 @@ def rows(reference: Path) -> list[dict[str, float]]:
 
 
 def second(runs: dict[int, hydrodae.Results]) -> np.ndarray:
-    return gauge(runs[2]) - gauge(runs[1])
+    return np.asarray(gauge(runs[2]) - gauge(runs[1]))
 
 
 def both_orders(*waves: Table, **keys: Any) -> dict[int, hydrodae.Results]:
