@@ -1,4 +1,4 @@
-"""Studies, journals of sweeps, records and checkpoints: where mutated ones start from."""
+"""Studies, journals of sweeps, records, components, checkpoints: where mutated ones start."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from random import Random
 import numpy as np
 from tests.fuzz import hdf5
 
-KINDS = ("study", "journal", "record", "checkpoint")
+KINDS = ("study", "journal", "record", "components", "checkpoint")
 
 CASE = """
 [[body]]
@@ -78,6 +78,8 @@ def prepare(folder: Path) -> dict[str, Path]:
         rows = "\n".join(f"{t + 1.0:.6g},{x:.6g}" for t, x in zip(time, values, strict=True))
         text = head + (rows.replace(",", "\t") if name == "txt" else rows) + "\n"
         (places["record"] / f"zz.{name}").write_text(text, encoding="latin-1")
+    head = "omega [rad/s],amplitude [m],phase [rad],heading [deg]\n"
+    (places["components"] / "zz.csv").write_text(head + "0.7,0.4,1.3,0\n0.9,0.2,-2.1,15\n")
     try:
         case, output = places["checkpoint"] / "case.toml", places["checkpoint"] / "zz.h5"
         hydrodae.run(case, output, checkpoint=1e9, progress=lambda t, _: t < 0.3)

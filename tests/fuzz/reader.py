@@ -84,6 +84,12 @@ def read_record(path: Path) -> None:
     hydrodae.Case.from_text(path.with_name("case.toml").read_text() + wave, path.parent)
 
 
+def read_components(path: Path) -> None:
+    """A case that names a file of wave components."""
+    wave = f'[[wave]]\nname = "sea"\ntype = "components"\nfile = "{path.name}"\n'
+    hydrodae.Case.from_text(path.with_name("case.toml").read_text() + wave, path.parent)
+
+
 def read_checkpoint(path: Path) -> None:
     """A run that goes on from it."""
     output = path.with_name("zz.h5")
@@ -115,6 +121,7 @@ TASKS = {
     "study": read_study_file,
     "journal": read_journal,
     "record": read_record,
+    "components": read_components,
     "checkpoint": read_checkpoint,
     "tables": read_tables,
     "wecsim": read_wecsim,

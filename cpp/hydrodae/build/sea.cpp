@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "hydrodae/build/bound_waves.h"
 #include "hydrodae/build/excitation_terms.h"
 #include "hydrodae/build/parts.h"
 #include "hydrodae/core/text.h"
@@ -35,7 +36,7 @@ void check_coverage(const hydro::Database& db, const sea::Wave& wave,
                     const std::vector<Meeting>& bodies) {
   const hydro::Headings headings(db.heading);
   const std::string head = "wave " + in_quotes(wave->name) + ": ", key = "wave." + wave->name;
-  const bool regular = wave.as<sea::Regular>();
+  const bool regular = wave.as<sea::Regular>(), listed = wave.as<sea::ComponentFile>();
   const auto* irregular = wave.as<sea::Irregular>();
   for (const sea::Component& c : components) {
     if (!hydro::covers_frequency(db, c.omega))
@@ -50,7 +51,9 @@ void check_coverage(const hydro::Database& db, const sea::Wave& wave,
     if (std::all_of(bodies.begin(), bodies.end(), covered))
       continue;
     const double last = db.heading[db.heading.size() - 1];
-    throw ModelError(key + (irregular && irregular->spreading ? ".spreading" : ".heading_deg"),
+    throw ModelError(key + (irregular && irregular->spreading ? ".spreading"
+                            : listed                          ? ""
+                                                              : ".heading_deg"),
                      head + "a component travels towards " + degrees(c.heading) +
                          (std::any_of(bodies.begin(), bodies.end(),
                                       [](const Meeting& m) { return m.yaw != 0.0; })
@@ -244,6 +247,9 @@ Sea draw_sea(const model::Scene& scene) {
     out.all.insert(out.all.end(), drawn.components.begin(), drawn.components.end());
   }
   out.field = sea::WaveField(out.all, model::water(scene).depth, scene.sea.ramp, scene.sea.current);
+  out.field.profile = sea::layers(scene.sea.current_profile);
+  if (scene.sea.order == 2)
+    add_bound_waves(scene, out);
   return out;
 }
 

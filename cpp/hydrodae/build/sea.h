@@ -15,6 +15,8 @@ struct Sea {
   std::vector<System> systems;
   std::vector<sea::Component> all; ///< of all systems, in their order
   sea::WaveField field;            ///< all waves and the current, in water of the scene's depth
+  std::shared_ptr<const sea::SecondOrder> second; ///< of gauges; null in a sea of first order
+  std::string note;                               ///< what there is of second order; "" without
 };
 
 /// Throws ModelError where too much of a wave lies outside the frequencies of the database.

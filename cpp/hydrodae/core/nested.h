@@ -19,12 +19,15 @@ template <class T> constexpr std::string_view doc_of() {
     return "";
 }
 
-/// Calls `visit(name, member)` for each table that stands inside one of T: `initial` and `drive`.
+/// Calls `visit(name, member)` for each table that stands inside one of T: `initial`, `drive`
+/// and `crest`.
 template <class T, class Visit> void for_each_nested(const Visit& visit) {
   if constexpr (requires(T value) { value.initial; })
     visit("initial", &T::initial);
   if constexpr (requires(T value) { value.drive; })
     visit("drive", &T::drive);
+  if constexpr (requires(T value) { value.crest; })
+    visit("crest", &T::crest);
 }
 
 } // namespace hydrodae

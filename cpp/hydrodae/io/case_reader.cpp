@@ -10,6 +10,7 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/io/case_overrides.h"
+#include "hydrodae/io/component_table.h"
 #include "hydrodae/io/hydro_file.h"
 #include "hydrodae/io/mesh_file.h"
 #include "hydrodae/io/record_file.h"
@@ -227,9 +228,23 @@ void read_databases(model::Scene& scene, const std::string& directory) {
                         "key 'databases' in [[pose_table]] " + in_quotes(table.name)));
 }
 
-/// Measured elevations that stand in files of their own.
+/// Components of a wave that stand in a file of their own.
+void read_components(model::Scene& scene, const std::string& directory, sea::ComponentFile& wave) {
+  const std::string key = "wave." + wave.name + ".file";
+  if (!wave.omega.empty() || !wave.amplitude.empty() || !wave.phase.empty() ||
+      !wave.headings.empty())
+    throw error_at(scene, key,
+                   "wave " + in_quotes(wave.name) +
+                       ": give either 'file', or 'omega', 'amplitude', 'phase', 'headings_deg'");
+  read_file(scene, directory, key, *wave.file, "key 'file' in [[wave]] " + in_quotes(wave.name),
+            [&](const std::string& path) { read_component_table(path, wave); });
+}
+
+/// Measured elevations and components that stand in files of their own.
 void read_records(model::Scene& scene, const std::string& directory) {
   for (sea::Wave& any : scene.waves) {
+    if (auto* listed = any.as<sea::ComponentFile>(); listed && listed->file)
+      read_components(scene, directory, *listed);
     auto* wave = any.as<sea::Measured>();
     if (!wave || !wave->file)
       continue;

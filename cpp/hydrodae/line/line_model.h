@@ -168,7 +168,7 @@ template <class S>
 sea::FluidPoint<S> node_fluid(const LineView<S>& at, const sea::WaveField& sea, double t, int i,
                               sea::FluidGradient* gradient = nullptr) {
   const Vec3<S> none = Vec3<S>::Zero();
-  if (sea.terms.empty()) {
+  if (sea.terms.empty() && sea.profile.empty()) {
     if (gradient)
       *gradient = {Matrix3::Zero(), Matrix3::Zero(), Vector3::Zero()};
     return {sea.current.template cast<S>(), none, S(0)};

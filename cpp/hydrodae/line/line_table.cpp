@@ -186,7 +186,7 @@ HYDRODAE_PART void find_water(const LineTable& table, const LineView<S>& at,
                    a = triples(arrays, at_::water_rate);
   S *elevation = arrays.column(at_::elevation), *wet = arrays.column(at_::wet);
   const int n = at.m.n();
-  if (sea.terms.empty()) {
+  if (sea.terms.empty() && sea.profile.empty()) {
     const Triple<S> flow = {S(sea.current[0]), S(sea.current[1]), S(sea.current[2])};
     for (int i = 0; i <= n; ++i) {
       u.put(i, flow);

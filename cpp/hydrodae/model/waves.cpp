@@ -41,7 +41,7 @@ std::vector<sea::Component> wave_components(const Scene& scene) {
 double irregular_period(const Scene& scene) {
   double variance = 0.0, lengths = 0.0;
   for (const sea::Wave& wave : scene.waves)
-    if (!wave.as<sea::Regular>())
+    if (!wave.as<sea::Regular>() && !wave.as<sea::NewWave>())
       for (const sea::Component& c : wave_components(scene, wave)) {
         variance += c.amplitude * c.amplitude;
         lengths += c.amplitude * c.amplitude / c.omega;

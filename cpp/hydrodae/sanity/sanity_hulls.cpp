@@ -29,17 +29,19 @@ Extent extent_of(const model::Body& body) {
 }
 
 /// Height of the largest of a thousand crests [m]: a quarter of the significant height times
-/// sqrt(2 ln 1000) (Longuet-Higgins 1952), and half of each regular wave.
+/// sqrt(2 ln 1000) (Longuet-Higgins 1952), half of each regular wave, and crests that are given.
 double highest_crest(const model::Scene& scene) {
-  double regular = 0.0, squares = 0.0;
+  double regular = 0.0, squares = 0.0, given = 0.0;
   for (const sea::Wave& wave : scene.waves)
     wave.visit([&](const auto& one) {
+      if constexpr (requires { one.crest; })
+        given = std::max(given, one.crest.height);
       if constexpr (requires { one.significant_height(); })
         squares += std::pow(one.significant_height(), 2);
-      else
+      else if constexpr (requires { one.height; })
         regular += 0.5 * one.height;
     });
-  return regular + 0.25 * std::sqrt(2.0 * std::log(1000.0) * squares);
+  return regular + std::max(given, 0.25 * std::sqrt(2.0 * std::log(1000.0) * squares));
 }
 
 std::string metres(double length) { return rounded_text(length, 3) + " m"; }

@@ -52,6 +52,37 @@ void judge_irregular(const std::string& name, double height, double period,
                              rounded_text(steepest_sea(period), 3) + " (DNV-RP-C205)"});
 }
 
+/// A crest breaks where the steepness A k of its mean wave number, weighted by the energies that
+/// the crest is made of, is more than that of a regular wave at Miche's limit: H k / 2 = pi 0.142
+/// tanh kd.
+void judge_crest(const sea::Wave& wave, const model::Scene& scene, std::vector<Finding>& out) {
+  const model::Water water = model::water(scene);
+  const sea::Site site{water.depth, water.gravity, {}};
+  wave.visit([&](const auto& one) {
+    if constexpr (requires { one.crest; }) {
+      if (!one.crest.given())
+        return;
+      auto free = one; // its components without the crest have the energies of the spectrum
+      if constexpr (requires { one.significant_height(); })
+        free.crest = {};
+      double energy = 0.0, sum = 0.0;
+      for (const sea::Component& c : free.components(site).components) {
+        // of NewWave the amplitudes are the energies
+        const double part = free.crest.given() ? c.amplitude : c.amplitude * c.amplitude;
+        energy += part;
+        sum += part * c.wavenumber;
+      }
+      const double k = energy > 0.0 ? sum / energy : 0.0, steepness = one.crest.height * k;
+      const double limit = pi * breaking * std::tanh(k * water.depth);
+      if (steepness > limit)
+        out.push_back({true, "wave " + in_quotes(one.name) + ": the crest of " +
+                                 rounded_text(one.crest.height, 3) + " m has a steepness of " +
+                                 rounded_text(steepness, 3) + "; waves break at " +
+                                 rounded_text(limit, 3)});
+    }
+  });
+}
+
 } // namespace
 
 std::vector<Finding> look_at_sea(const model::Scene& scene) {
@@ -63,6 +94,7 @@ std::vector<Finding> look_at_sea(const model::Scene& scene) {
   for (const sea::Wave& wave : scene.waves) {
     if (const auto* regular = wave.as<sea::Regular>())
       judge_regular(*regular, water, out);
+    judge_crest(wave, scene, out);
     wave.visit([&](const auto& one) {
       if constexpr (requires { one.significant_height(); }) {
         const double height = one.significant_height();

@@ -1,6 +1,5 @@
 #pragma once
 #include <algorithm>
-#include <functional>
 
 #include "hydrodae/core/types.h"
 #include "hydrodae/sea/system.h"
@@ -21,11 +20,8 @@ struct DensityTable : Irregular {
   Spectrum spectrum(double) const { return spectrum_of_points(frequency, density); }
   Sum components(const Site& site) const { return drawn(spectrum(site.gravity), site); }
   std::optional<Fault> fault() const {
-    if (frequency.size() != density.size() || frequency.size() < 2)
-      return Fault{"density", "frequency and density must be two lists of equal length >= 2"};
-    if (!std::is_sorted(frequency.begin(), frequency.end(), std::less_equal<>()))
-      return Fault{"frequency", "the frequencies must ascend"};
-    return range_fault(frequency_range);
+    const std::optional<Fault> wrong = table_fault(frequency, density);
+    return wrong ? wrong : own_fault(spectrum(0.0).m0 > 0.0);
   }
 
   template <class W = DensityTable> static Fields<W> fields() {

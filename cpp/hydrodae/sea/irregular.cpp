@@ -43,29 +43,12 @@ private:
   std::vector<double> cumulative_ = std::vector<double>(cells + 1);
 };
 
-/// Energies below the lowest and the highest frequency of the components [m2].
-struct Cut {
-  double low = 0.0, high = 0.0;
-};
-
-Cut usual_cut(const Irregular& wave, const Spectrum& s) {
-  if (!wave.frequency_range.empty())
-    return {s.energy_below(wave.frequency_range[0]), s.energy_below(wave.frequency_range[1])};
+Cut usual_cut(const Spectrum& s, const std::vector<double>& range) {
+  if (!range.empty())
+    return {s.energy_below(range[0]), s.energy_below(range[1])};
   if (s.ends)
     return {s.energy_below(s.omega.front()), s.cumulative.back()};
   return {cut_below * s.m0, (1.0 - cut_above) * s.m0};
-}
-
-/// A cut, and a range that nobody gave no wider than what is covered.
-Cut cut_to(const Irregular& wave, Cut cut, const Spectrum& s, const Band& covered) {
-  if (!wave.frequency_range.empty())
-    return cut;
-  if (covered.low > s.omega.front())
-    cut.low = std::max(cut.low, s.energy_below(covered.low));
-  if (covered.high < s.omega.back())
-    cut.high = std::min(cut.high, s.energy_below(covered.high));
-  cut.high = std::max(cut.low, cut.high);
-  return cut;
 }
 
 } // namespace
@@ -74,15 +57,50 @@ std::string Sum::lost_text() const {
   return number_text(std::round(1e4 * lost) / 1e2) + " % of the variance lies outside " + range;
 }
 
+std::string range_text(const Band& covered) {
+  return "the database, " + number_text(covered.low) + " to " + number_text(covered.high) +
+         " rad/s";
+}
+
+Cut energy_cut(const Spectrum& s, const std::vector<double>& range, const Band& covered) {
+  Cut cut = usual_cut(s, range);
+  if (!range.empty()) // a range that somebody gave is kept
+    return cut;
+  const double usual = cut.high - cut.low;
+  if (covered.low > s.omega.front())
+    cut.low = std::max(cut.low, s.energy_below(covered.low));
+  if (covered.high < s.omega.back())
+    cut.high = std::min(cut.high, s.energy_below(covered.high));
+  cut.high = std::max(cut.low, cut.high);
+  cut.lost = usual - (cut.high - cut.low);
+  return cut;
+}
+
+std::optional<Fault> table_fault(const std::vector<double>& frequency,
+                                 const std::vector<double>& density) {
+  if (frequency.size() != density.size() || frequency.size() < 2)
+    return Fault{"density", "frequency and density must be two lists of equal length >= 2"};
+  if (!std::is_sorted(frequency.begin(), frequency.end(), std::less_equal<>()))
+    return Fault{"frequency", "the frequencies must ascend"};
+  return {};
+}
+
+std::optional<Fault> Irregular::own_fault(bool has_energy) const {
+  if (crest.given() && !has_energy)
+    return Fault{"crest.height", "a sea without energy has no crest; give it a height, or use type "
+                                 "= \"new_wave\""};
+  const std::optional<Fault> wrong = crest_fault(crest);
+  return wrong ? wrong : range_fault(frequency_range);
+}
+
 Sum Irregular::drawn(const Spectrum& s, const Site& site) const {
   Sum sum;
-  sum.range = "the database, " + number_text(site.covered.low) + " to " +
-              number_text(site.covered.high) + " rad/s";
+  sum.range = range_text(site.covered);
   if (!(s.m0 > 0.0))
     return sum;
-  const Cut usual = usual_cut(*this, s), cut = cut_to(*this, usual, s, site.covered);
+  const Cut cut = energy_cut(s, frequency_range, site.covered);
   const double low = cut.low, high = cut.high;
-  sum.lost = (usual.high - usual.low - (high - low)) / s.m0;
+  sum.lost = cut.lost / s.m0;
   const double w_low = s.frequency_at(low), w_high = s.frequency_at(high);
   Random random(static_cast<std::uint64_t>(seed));
   for (int i = 0; i < count; ++i) {
@@ -112,11 +130,17 @@ Sum Irregular::drawn(const Spectrum& s, const Site& site) const {
       u -= std::floor(u);
     }
   }
+  if (crest.given() && !sum.components.empty())
+    constrain(sum.components, crest);
   sum.note = "wave " + in_quotes(name) + ": " + std::to_string(sum.components.size()) +
              " components from " + number_text(w_low) + " to " + number_text(w_high) +
              " rad/s hold " + number_text(100.0 * (high - low) / s.m0) + " % of the energy";
   if (sum.lost > 0.0)
     sum.note += "; " + sum.lost_text() + ", and is left out";
+  if (crest.given())
+    sum.note += "; its crest of " + number_text(crest.height) + " m at " + number_text(crest.time) +
+                " s is prescribed: means over time are those of a sea "
+                "with this crest";
   return sum;
 }
 

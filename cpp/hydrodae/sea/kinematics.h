@@ -1,6 +1,6 @@
 #pragma once
-/// Motion of the undisturbed water at points that move: linear (Airy) waves of finite depth and a
-/// uniform current.
+/// Motion of the undisturbed water at points that move: linear (Airy) waves of finite depth, their
+/// bound waves as further terms (sea/second_order.h), and a current, uniform or over the depth.
 ///
 ///   eta = a cos th,   th = w t - k (x cos b + y sin b) + phase
 ///   u_h = a w C cos th,   u_z = -a w S sin th,   du_h/dt = -a w^2 C sin th,   du_z/dt = ...
@@ -14,12 +14,27 @@
 ///   own derivative is in none of them (of the order 1/(w ramp) beside the acceleration).
 
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "hydrodae/core/types.h"
 #include "hydrodae/sea/component.h"
 
 namespace hydrodae::sea {
+
+class SecondOrder;
+
+/// Second-order elevation of all bound waves, without the ramp [m].
+double second_elevation(const SecondOrder& second, double t, double x, double y);
+
+/// Current at one height.
+struct Layer {
+  double z = 0.0;                     ///< [m]
+  Vector3 velocity = Vector3::Zero(); ///< [m/s]
+};
+
+/// Layers of rows z [m], speed [m/s], heading [deg].
+std::vector<Layer> layers(const std::vector<Vector3>& rows);
 
 /// The sea as a field in space and time; without terms the water moves with the current alone.
 struct WaveField {
@@ -32,7 +47,9 @@ struct WaveField {
   };
   double depth = INFINITY, ramp = 0.0; ///< h [m], growth at the start [s]
   Vector3 current = Vector3::Zero();   ///< [m/s]
+  std::vector<Layer> profile;          ///< downwards, in place of `current`; empty: uniform
   std::vector<Term> terms;
+  std::shared_ptr<const SecondOrder> second; ///< added by `elevation`; null in a first-order sea
 
   WaveField() = default;
   WaveField(const std::vector<Component>& components, double water_depth, double ramp_time,
@@ -56,7 +73,29 @@ inline double elevation(const WaveField& field, double t, double x, double y) {
   for (const WaveField::Term& w : field.terms)
     sum +=
         w.amplitude * std::cos(w.omega * t + w.phase - w.wavenumber * (w.cosine * x + w.sine * y));
+  if (field.second)
+    sum += second_elevation(*field.second, t, x, y);
   return growth * sum;
+}
+
+/// Current at height z in a profile, and, where `slope` is not null, its derivative by z. The
+/// velocities of the layers are joined by straight lines and constant beyond.
+template <class S>
+Vec3<S> current_at(const std::vector<Layer>& profile, const S& z, Vector3* slope = nullptr) {
+  if (slope)
+    slope->setZero();
+  if (z >= S(profile.front().z))
+    return profile.front().velocity.template cast<S>();
+  for (std::size_t i = 1; i < profile.size(); ++i) {
+    const Layer &above = profile[i - 1], &below = profile[i];
+    if (z < S(below.z))
+      continue;
+    const Vector3 by_z = (above.velocity - below.velocity) / (above.z - below.z);
+    if (slope)
+      *slope = by_z;
+    return below.velocity.template cast<S>() + (z - S(below.z)) * by_z.template cast<S>();
+  }
+  return profile.back().velocity.template cast<S>();
 }
 
 /// Velocity [m/s] and acceleration [m/s2] of the water at a point, elevation [m] above it.
@@ -138,8 +177,17 @@ void fluid_on_line(const WaveField& field, double t, const Vec3<S>& x0, const Ve
       c = turned;
     }
   }
-  for (int j = first; j < n; ++j)
-    out[place(j)].velocity += field.current.template cast<S>();
+  if (field.profile.empty()) {
+    for (int j = first; j < n; ++j)
+      out[place(j)].velocity += field.current.template cast<S>();
+    return;
+  }
+  for (int j = first; j < n; ++j) {
+    Vector3 slope;
+    out[place(j)].velocity += current_at<S>(field.profile, low[2] + S(j) * step[2], &slope);
+    if (gradients)
+      gradients[place(j)].velocity.col(2) += slope;
+  }
 }
 
 } // namespace hydrodae::sea

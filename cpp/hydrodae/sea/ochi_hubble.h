@@ -13,9 +13,7 @@ struct OchiHubble : Peaked {
   double shape = 1.0;
 
   Spectrum spectrum(double) const {
-    const auto density = [l = shape](double x) {
-      return std::exp(-(4.0 * l + 1.0) * std::log(x) - (l + 0.25) * std::pow(x, -4.0));
-    };
+    const auto density = [l = shape](double x) { return ochi_hubble_shape(x, l); };
     return spectrum_of_shape(density, 1.0 / (4.0 * shape), height, period);
   }
   Sum components(const Site& site) const { return drawn(spectrum(site.gravity), site); }

@@ -24,7 +24,7 @@ struct PiersonMoskowitz : Irregular {
                              peak_period(gravity));
   }
   Sum components(const Site& site) const { return drawn(spectrum(site.gravity), site); }
-  std::optional<Fault> fault() const { return range_fault(frequency_range); }
+  std::optional<Fault> fault() const { return own_fault(height > 0.0); }
 
   template <class W = PiersonMoskowitz> static Fields<W> fields() {
     return system_fields<W>() + height_field<W>() + irregular_fields<W>();

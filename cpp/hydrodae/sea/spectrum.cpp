@@ -64,6 +64,10 @@ double jonswap_shape(double x, double gamma) {
   return s;
 }
 
+double ochi_hubble_shape(double x, double l) {
+  return std::exp(-(4.0 * l + 1.0) * std::log(x) - (l + 0.25) * std::pow(x, -4.0));
+}
+
 double Spectrum::operator()(double w) const {
   if (w < omega.front() || w > omega.back())
     return 0.0;

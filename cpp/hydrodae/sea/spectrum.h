@@ -31,4 +31,7 @@ Spectrum spectrum_of_shape(const std::function<double(double)>& shape, double ta
 /// w^-5 exp(-5/4 w^-4) gamma^exp(-(w - 1)^2 / (2 s^2)), s = 0.07 below 1 and 0.09 above.
 double jonswap_shape(double x, double gamma);
 
+/// w^-(4l+1) exp(-(l + 1/4) w^-4).
+double ochi_hubble_shape(double x, double l);
+
 } // namespace hydrodae::sea

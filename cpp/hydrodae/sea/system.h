@@ -10,6 +10,7 @@
 #include "hydrodae/core/field.h"
 #include "hydrodae/core/one_of.h"
 #include "hydrodae/sea/component.h"
+#include "hydrodae/sea/crest.h"
 #include "hydrodae/sea/spectrum.h"
 
 namespace hydrodae::sea {
@@ -73,6 +74,22 @@ inline std::optional<Fault> range_fault(const std::vector<double>& range) {
   return {};
 }
 
+/// Energies below the lowest and the highest frequency of the components [m2].
+struct Cut {
+  double low = 0.0, high = 0.0;
+  double lost = 0.0; ///< energy of the usual range outside what is covered [m2]
+};
+
+/// Energies between which components are made: those of a range, or all but 0.1 % below and 0.5 %
+/// above, as far as something is covered.
+Cut energy_cut(const Spectrum& spectrum, const std::vector<double>& range, const Band& covered);
+
+std::string range_text(const Band& covered); ///< "the database, 0.2 to 1.5 rad/s"
+
+/// Fault of a spectrum that is given point by point.
+std::optional<Fault> table_fault(const std::vector<double>& frequency,
+                                 const std::vector<double>& density);
+
 /// Capillary waves are shorter than what gravity moves.
 inline constexpr double shortest_period = 1e-3; // [s]
 std::optional<Fault> period_fault(const char* key, double period);
@@ -85,12 +102,17 @@ struct Irregular : WaveSystem {
   std::string spacing = "energy";
   std::vector<double> frequency_range;
   int seed = 1;
+  Crest crest;
 
   /// Components: one in each bin of the spectrum, with the energy of its bin and a frequency drawn
   /// in it (uniformly in energy or in frequency), a random phase, and a direction from the
   /// spreading. Draws, in this order for each bin: frequency, phase; then, with spreading, one
   /// start u of the sequence frac(u + i (sqrt(5) - 1)/2) that is mapped to directions.
+  /// With a `crest` the result is constrained to it.
   Sum drawn(const Spectrum& spectrum, const Site& site) const;
+
+  /// Fault of the range or the crest. A sea without energy cannot have a crest.
+  std::optional<Fault> own_fault(bool has_energy) const;
 };
 
 template <class W> Fields<W> irregular_fields() {
@@ -122,7 +144,7 @@ struct Peaked : Irregular {
   double peak_period(double) const { return period; }
   std::optional<Fault> fault() const {
     const std::optional<Fault> wrong = period_fault("peak_period", period);
-    return wrong ? wrong : range_fault(frequency_range);
+    return wrong ? wrong : own_fault(height > 0.0);
   }
 };
 

@@ -7,9 +7,11 @@
 
 #include "hydrodae/core/field.h"
 #include "hydrodae/core/one_of.h"
+#include "hydrodae/sea/component_file.h"
 #include "hydrodae/sea/density_table.h"
 #include "hydrodae/sea/jonswap.h"
 #include "hydrodae/sea/measured.h"
+#include "hydrodae/sea/new_wave.h"
 #include "hydrodae/sea/ochi_hubble.h"
 #include "hydrodae/sea/pierson_moskowitz.h"
 #include "hydrodae/sea/regular.h"
@@ -24,6 +26,9 @@ struct Sea {
   std::string phase = "fixed";
   std::string stretching = "vertical";
   bool bernoulli = false;
+  int order = 1, second_order_terms = 400;
+  std::optional<double> second_order_limit;
+  std::vector<Vector3> current_profile; ///< z [m], speed [m/s], heading [deg]
 
   template <class S = Sea> static Fields<S> fields() {
     return {
@@ -34,6 +39,9 @@ struct Sea {
         {"current", &S::current, "m/s",
          "Velocity of the water, the same everywhere, on which the Morison elements work; the "
          "waves do not feel it."},
+        {"current_profile", &S::current_profile, "-",
+         "In place of `current`: rows [z, speed, heading] in m, m/s and deg, z from 0 downwards; "
+         "straight lines between, constant beyond the first and the last."},
         {"phase",
          &S::phase,
          "-",
@@ -55,12 +63,23 @@ struct Sea {
          {"vertical", "wheeler", "extrapolated", "none"}},
         {"bernoulli", &S::bernoulli, "-",
          "Whether the pressure on them has the term -rho u^2 / 2 of the waves' own velocity."},
+        {"order", &S::order, "-",
+         "2: gauges, Morison elements and lines feel the bound waves of second order, too, at sums "
+         "and differences of the frequencies; the excitation of the database stays of first order.",
+         false, between(1, 2)},
+        {"second_order_limit", &S::second_order_limit, "rad/s",
+         "Highest frequency of the components that make bound waves; sqrt(2 g / Hs) by default.",
+         false, more_than(0)},
+        {"second_order_terms", &S::second_order_terms, "-",
+         "Largest number of bound waves that Morison elements and lines feel; the largest are "
+         "kept. Gauges have all.",
+         false, between(1, 100000)},
     };
   }
 };
 
 /// Table [[wave]]: one wave system. A new type is one header and one entry here.
 using Wave = OneOf<WaveSystem, Regular, Jonswap, Bretschneider, PiersonMoskowitz, OchiHubble,
-                   DensityTable, Measured>;
+                   DensityTable, Measured, NewWave, ComponentFile>;
 
 } // namespace hydrodae::sea

@@ -126,7 +126,7 @@ MorisonList::MorisonList(sea::WaveField sea) : water_(std::move(sea)) {
   type = "morison";
   shape.port = element::Port::in_water;
   lost = std::string("the quadratic drag of Morison elements ") +
-         (water_.current.isZero(0.0)
+         (water_.current.isZero(0.0) && water_.profile.empty()
               ? "is zero in the linear model (it has no slope at rest)"
               : "has in the linear model only the slope that the current gives it");
 }

@@ -35,9 +35,11 @@ def morison_loads(bodies: Bodies, tables: Table, density: float) -> list[Load]:
         points = np.array([next(places) for _ in range(count)])
         own = [_point_drag, _member_drag]["point" not in element]
         out += own(bodies, element, points, density)
-    if out and np.any(tables.get("sea", {}).get("current", 0.0)):
+    sea = tables.get("sea", {})
+    key = "current_profile" if "current_profile" in sea else "current"
+    if out and np.any(sea.get(key, 0.0)):
         raise CaseError(
-            f"sea.current: the drag of {out[0].name!r} in a current is not about rest, which its "
+            f"sea.{key}: the drag of {out[0].name!r} in a current is not about rest, which its "
             "linear equivalent is; run it in the time domain"
         )
     return out

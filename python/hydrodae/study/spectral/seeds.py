@@ -107,7 +107,7 @@ def time_domain(
 
 
 def _random(wave: Mapping[str, Any]) -> bool:
-    return wave["type"] not in ("regular", "measured")
+    return wave["type"] not in ("regular", "measured", "new_wave", "components")
 
 
 def _run_one(
