@@ -21,6 +21,7 @@ from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.scales import scales
 from hydrodae.hdb.relations.dispersion import group_velocity, wavenumber
+from hydrodae.hdb.relations.entries import entry_scale
 from hydrodae.support.arrays import Array
 
 #: Fewest frequencies with enough damping that a verdict rests on.
@@ -214,10 +215,7 @@ def _symmetric_about_y(db: HydroDatabase) -> bool:
 
 def _coupling(db: HydroDatabase, pairs: NDArray[np.bool_]) -> float:
     """Largest |A_ij| of the given pairs over sqrt(A_ii A_jj)."""
-    size = np.sqrt(np.abs(np.einsum("wii->wi", db.added_mass)).max(axis=0))
-    scale = np.outer(size, size)
-    scale[scale <= 1e-6 * scale.max()] = np.inf
-    return float(np.abs(db.added_mass / scale)[:, pairs].max(initial=0.0))
+    return float(np.abs(db.added_mass / entry_scale(db.added_mass))[:, pairs].max(initial=0.0))
 
 
 def _axisymmetric(db: HydroDatabase) -> bool:
