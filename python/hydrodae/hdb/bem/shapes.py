@@ -217,16 +217,12 @@ def hydrostatics(panels: ArrayLike, point: ArrayLike) -> Hydrostatics:
     mean = middle.mean(axis=1)
     by_axis = (mean * area).sum(axis=0)
     volume = float(by_axis[2])
-    if volume <= 1e-6 * float(np.abs(by_axis).max()) and by_axis.max() > 0.0:
-        shown = ", ".join(f"{v:.5g}" for v in by_axis)
-        raise DatabaseError(f"the surface has holes: its volume by x, y, z is {shown} m3").about(
-            "mesh", "holes"
-        )
-    if volume <= 0.0:
+    open_below = volume <= 1e-6 * float(np.abs(by_axis).max()) and by_axis.max() > 0.0
+    if volume <= 0.0 and not open_below:
         raise NoWaterError(
             "the surface displaces no water: it is dry, or its normals point inwards"
         ).about("mesh", "normals")
-    if np.abs(by_axis - volume).max() > LEAK * volume:
+    if open_below or np.abs(by_axis - volume).max() > LEAK * volume:
         shown = ", ".join(f"{v:.5g}" for v in by_axis)
         raise DatabaseError(f"the surface has holes: its volume by x, y, z is {shown} m3").about(
             "mesh", "holes"

@@ -11,9 +11,8 @@ from __future__ import annotations
 import numpy as np
 
 from hydrodae.hdb.checks.band import LEAST_DAMPING, Band, damping_sizes, felt_band, inside
-from hydrodae.hdb.checks.depth import depth_findings
 from hydrodae.hdb.checks.drift import drift_findings
-from hydrodae.hdb.checks.energy import energy_findings
+from hydrodae.hdb.checks.energy import depth_findings, energy_findings
 from hydrodae.hdb.checks.fits import fit_findings
 from hydrodae.hdb.checks.ground import of_what_moves
 from hydrodae.hdb.checks.headings import heading_findings

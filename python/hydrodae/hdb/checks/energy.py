@@ -20,6 +20,7 @@ from hydrodae.hdb.checks.irregular import suspect_rows
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.scales import scales
+from hydrodae.hdb.relations.depth import depth_of_bodies
 from hydrodae.hdb.relations.dispersion import group_velocity, wavenumber
 from hydrodae.hdb.relations.entries import entry_scale
 from hydrodae.support.arrays import Array
@@ -152,6 +153,33 @@ def energy_findings(database: HydroDatabase, band: Band | None = None) -> list[F
         f"by the {found.method}" + (f"; {off} coordinates beyond 5 %" if off > 1 else "")
     )
     return [Finding(severity, "damping from excitation", text, error, omega)]
+
+
+def depth_findings(db: HydroDatabase) -> list[Finding]:
+    """Warn where damping and force of heave agree in water of another depth only.
+
+    Parameters
+    ----------
+    db : HydroDatabase
+        With headings all round, or from 0 to 180 degrees.
+    """
+    told = depth_of_bodies(
+        db.coordinates,
+        db.omega,
+        db.radiation_damping,
+        db.heading,
+        db.excitation,
+        db.rho,
+        db.gravity,
+    )
+    if told is None or told.agrees(db.water_depth):
+        return []
+    best = f"{told.depth:.4g} m" if np.isfinite(told.depth) else f"more than {told.low:.3g} m"
+    text = (
+        f"stated as {db.water_depth:g} m, but damping and force of heave agree in {best}: "
+        f"state the depth of the computation (--depth)"
+    )
+    return [Finding("warning", "water depth", text, omega=float(db.omega[0]))]
 
 
 def _circle(db: HydroDatabase) -> Array | None:

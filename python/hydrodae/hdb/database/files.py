@@ -58,13 +58,6 @@ def damaged(path: Path, fault: str) -> DatabaseError:
     return DatabaseError(fault).about("damaged", file=path)
 
 
-def is_hydro_file(path: Path) -> bool:
-    """Return whether a file is a `hydro.h5` (by its root attribute)."""
-    if not h5py.is_hdf5(path):
-        return False
-    return reading(path, damaged, DAMAGED, holds_format, search=True)
-
-
 def holds_format(f: h5py.File) -> bool:
     """Return whether an open file is a `hydro.h5`."""
     return _text(f.attrs.get("format", "")) == FORMAT
@@ -75,6 +68,16 @@ def is_single(path: str | Path) -> bool:
     return reading(
         Path(path), damaged, DAMAGED, lambda f: bool(f["added_mass"].dtype == np.float32)
     )
+
+
+def partial_file(target: Path, kind: str) -> Path:
+    """Return the file that becomes `target` when it is complete; refuse one of another kind."""
+    outputs.spare(target, kind)
+    if not target.parent.is_dir():
+        raise DatabaseError(f"cannot write {target}: no folder {target.parent}").about(
+            "missing", "folder"
+        )
+    return target.with_name(target.name + ".part")
 
 
 def write(database: Tables, path: str | Path, *, kernel: bool = True, single: bool = False) -> None:
@@ -102,12 +105,7 @@ def write(database: Tables, path: str | Path, *, kernel: bool = True, single: bo
     for name in database.bodies:
         database.reference_point(name)
     target = Path(path)
-    outputs.spare(target, outputs.DATABASE)
-    if not target.parent.is_dir():
-        raise DatabaseError(f"cannot write {target}: no folder {target.parent}").about(
-            "missing", "folder"
-        )
-    partial = target.with_name(target.name + ".part")
+    partial = partial_file(target, outputs.DATABASE)
     with h5py.File(partial, "w") as f:
         _write_tables(f, database, kernel=kernel, single=single)
         _write_bodies(f, database)

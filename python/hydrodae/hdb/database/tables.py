@@ -230,12 +230,17 @@ class Tables:
         DatabaseError
             Unknown body, or its hydrostatics or reference point are unknown.
         """
-        point, hs = self.reference_point(body), self.bodies[body].hydrostatics
+        point = self.reference_point(body)
+        return self.hydrostatics(body).stiffness(point, self.rho, self.gravity)
+
+    def hydrostatics(self, body: str) -> Hydrostatics:
+        """Hydrostatics of a body; an error where they are unknown."""
+        hs = self.bodies[body].hydrostatics
         if hs is None:
             raise DatabaseError(f"the hydrostatics of body {body!r} are not in the database").about(
                 "missing", body
             )
-        return hs.stiffness(point, self.rho, self.gravity)
+        return hs
 
     def reference_point(self, body: str) -> Array:
         """Point (3,) about which the moments of a body are, world [m].

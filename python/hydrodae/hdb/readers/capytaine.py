@@ -16,10 +16,9 @@ from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.coordinates import unique_names
-from hydrodae.hdb.database.extra import kept_tables
+from hydrodae.hdb.database.extra import kept_tables, shallow_findings
 from hydrodae.hdb.database.files import damaged
 from hydrodae.hdb.database.findings import Finding
-from hydrodae.hdb.database.shallow import shallow_findings
 from hydrodae.hdb.labels import DOFS
 from hydrodae.hdb.readers.capytaine_statics import attach_bodies, text
 from hydrodae.hdb.readers.source import SourceData
@@ -93,10 +92,7 @@ def _read(path: Path, ds: xr.Dataset) -> SourceData:
         added_mass=a[order],
         radiation_damping=b[order],
         heading=heading,
-        froude_krylov=forces["froude_krylov"],
-        diffraction=forces["diffraction"],
-        excitation=forces["excitation"],
-        reference_points={},
+        **forces,
         rho=_number(ds, "rho"),
         gravity=_number(ds, "g"),
         water_depth=_depth(ds),
@@ -212,11 +208,8 @@ def _coordinates(
     if not rigid:
         raise DatabaseError(f"none of {both} is one of {', '.join(DOFS)}").about("label")
     if lost:
-        findings.append(
-            Finding(
-                "warning", "coordinates", f"left out (not rigid, or motion or force only): {lost}"
-            )
-        )
+        said = f"left out (not rigid, or motion or force only): {lost}"
+        findings.append(Finding("warning", "coordinates", said))
     prefixes = list(dict.fromkeys(d.rpartition("__")[0] for d in rigid))
     names = unique_names([p or _single_body(path, ds) for p in prefixes])
     labels = []
@@ -236,13 +229,18 @@ def _single_body(path: Path, ds: xr.Dataset) -> str:
 def _matrix(ds: xr.Dataset, name: str, dofs: list[str]) -> Array:
     """Return a variable as (nw, force, motion)."""
     variable = ds[name].sel(influenced_dof=dofs, radiating_dof=dofs)
+    dims = "omega", "influenced_dof", "radiating_dof"
+    return np.asarray(_ordered(variable, name, dims), dtype=float)
+
+
+def _ordered(variable: xr.DataArray, name: str, dims: tuple[str, ...]) -> NDArray[Any]:
+    """Return the values of a variable along these dimensions; refuse others."""
     try:
-        ordered = variable.transpose("omega", "influenced_dof", "radiating_dof")
+        return np.asarray(variable.transpose(*dims).values)
     except ValueError as error:
         raise DatabaseError(f"dimensions of {name!r}: {variable.dims}").about(
             "shape", name
         ) from error
-    return np.asarray(ordered.values, dtype=float)
 
 
 def _force(ds: xr.Dataset, name: str, dofs: list[str], order: NDArray[np.intp]) -> Complex | None:
@@ -260,13 +258,8 @@ def _force(ds: xr.Dataset, name: str, dofs: list[str], order: NDArray[np.intp]) 
         variable = variable.sel(complex="re") + 1j * variable.sel(complex="im")
     if "wave_direction" not in variable.dims:
         variable = variable.expand_dims("wave_direction")
-    try:
-        ordered = variable.transpose("omega", "wave_direction", "influenced_dof")
-    except ValueError as error:
-        raise DatabaseError(f"dimensions of {name!r}: {variable.dims}").about(
-            "shape", name
-        ) from error
-    return np.asarray(np.conj(ordered.values[order]), dtype=complex)
+    values = _ordered(variable, name, ("omega", "wave_direction", "influenced_dof"))
+    return np.asarray(np.conj(values[order]), dtype=complex)
 
 
 def _number(ds: xr.Dataset, name: str) -> float:

@@ -25,10 +25,8 @@ def attach_bodies(data: SourceData, ds: xr.Dataset, raw: list[str], path: Path) 
         beside, findings = nh.read_all(path.parent, len(names), data.rho, data.gravity)
         data.findings += findings
     for i, name in enumerate(names):
-        first = next(
-            d for d, c in zip(raw, data.coordinates, strict=True) if c.startswith(name + ".")
-        )
-        prefix = first.rpartition("__")[0]
+        own = zip(raw, data.labels, strict=True)
+        prefix = next(dof for dof, label in own if label.body == name).rpartition("__")[0]
         point = _vector(ds, "rotation_center", prefix, i)
         data.reference_points[name] = point
         hs = _hydrostatics(data, ds, raw, prefix, i, point)
@@ -38,11 +36,8 @@ def attach_bodies(data: SourceData, ds: xr.Dataset, raw: list[str], path: Path) 
         elif near is not None:
             data.hydrostatics[name] = (near.hydrostatics, near.center_of_gravity)
             data.files += near.files
-            data.findings.append(
-                Finding(
-                    "info", "hydrostatics", f"{name}: taken from {near.files[0].name} beside it"
-                )
-            )
+            said = f"{name}: taken from {near.files[0].name} beside it"
+            data.findings.append(Finding("info", "hydrostatics", said))
             if point is None:
                 assume_by_statics(data, name, near)
         else:

@@ -122,8 +122,6 @@ def read_orcawave(path: Path) -> SourceData:
         added_mass=a,
         radiation_damping=b,
         heading=heading,
-        froude_krylov=None,
-        diffraction=None,
         excitation=force,
         reference_points={name: b.point for name, b in zip(names, bodies, strict=True)},
         rho=rho,

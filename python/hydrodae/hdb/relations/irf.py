@@ -158,9 +158,6 @@ def added_mass_inf(
     omega: ArrayLike,
     added_mass: ArrayLike,
     damping: ArrayLike,
-    *,
-    tail: bool = True,
-    estimates: ArrayLike | None = None,
 ) -> tuple[Array, Array]:
     """Added mass at infinite frequency by least squares on Ogilvie's relation.
 
@@ -174,10 +171,6 @@ def added_mass_inf(
         Frequencies [rad/s].
     added_mass, damping : (nw, ...) array
         A(w), B(w).
-    tail : bool
-        As in `radiation_kernel`.
-    estimates : (nw, ...) array, optional
-        Result of `added_mass_inf_estimates`, if it is at hand.
 
     Returns
     -------
@@ -188,9 +181,7 @@ def added_mass_inf(
         uncertainty of A_inf as far as the table itself shows it.
     """
     w = np.asarray(omega, dtype=float)
-    if estimates is None:
-        estimates = added_mass_inf_estimates(w, added_mass, damping, tail=tail)
-    estimate = np.asarray(estimates, dtype=float)
+    estimate = added_mass_inf_estimates(w, added_mass, damping)
     shape = estimate.shape[1:]
     # the last two points depend on how the table goes on beyond its end
     band = np.flatnonzero(w > BAND_FROM * w[-1])[:-2]
