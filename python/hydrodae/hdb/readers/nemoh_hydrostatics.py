@@ -13,6 +13,7 @@ from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.hull.mesh_statics import mesh_statics
 from hydrodae.hdb.hull.meshes import read_mesh
+from hydrodae.hdb.readers.stiffness_file import read_stiffness
 from hydrodae.hdb.readers.text import finite, read_lines
 from hydrodae.support.arrays import Array
 from hydrodae.support.naming import names_file
@@ -229,7 +230,7 @@ def _read_one(root: Path, i: int, count: int) -> _Written | None:
         return None
     buoyancy, center, values = _read_text(text)
     volume, area = values["displacement"], values.get("waterplane area")
-    return _Written(text, matrix, buoyancy, center, volume, area, _read_matrix(matrix))
+    return _Written(text, matrix, buoyancy, center, volume, area, read_stiffness(matrix).stiffness)
 
 
 def _hydrostatics(w: _Written, rho: float, weight: float) -> FileHydrostatics:
@@ -293,28 +294,3 @@ def _read_text(path: Path) -> tuple[Array, Array, dict[str, float]]:
         )
     table = np.array(pairs)
     return table[:, 0], table[:, 1], values
-
-
-@names_file
-def _read_matrix(path: Path) -> Array:
-    rows = [line.split() for line in read_lines(path) if line.strip()]
-    try:
-        matrix = np.array([[finite(t) for t in row] for row in rows[:6]])
-    except ValueError as error:
-        line = _line_of(path)
-        raise DatabaseError(f"not numbers of a 6 x 6 matrix ({error})").about(
-            "format", line=line
-        ) from None
-    if matrix.shape != (6, 6):
-        raise DatabaseError(f"not a 6 x 6 matrix but {matrix.shape}").about("shape")
-    return matrix
-
-
-def _line_of(path: Path) -> int:
-    """Number of the first line that holds something else than numbers."""
-    for count, line in enumerate(read_lines(path), start=1):
-        try:
-            [finite(token) for token in line.split()]
-        except ValueError:
-            return count
-    return 1
