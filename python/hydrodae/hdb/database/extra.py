@@ -64,7 +64,7 @@ def kept_tables(dataset: xr.Dataset) -> dict[str, SourceTable]:
             continue
         if "complex" in variable.dims:
             values = variable.transpose("complex", ...).values
-            parts = [_label(c) for c in variable["complex"].values]
+            parts = [label_text(c) for c in variable["complex"].values]
             both = values[parts.index("re")] + 1j * values[parts.index("im")]
             dims = tuple(str(d) for d in variable.dims if d != "complex")
         else:
@@ -132,8 +132,9 @@ def read_extra(group: h5py.Group) -> dict[str, SourceTable]:
 def _axis(values: NDArray[np.generic]) -> Array | tuple[str, ...]:
     if values.dtype.kind in "fiu":
         return np.asarray(values, dtype=float)
-    return tuple(_label(value) for value in values)
+    return tuple(label_text(value) for value in values)
 
 
-def _label(value: object) -> str:
+def label_text(value: object) -> str:
+    """Return a label, which files may hold as bytes."""
     return value.decode() if isinstance(value, bytes) else str(value)

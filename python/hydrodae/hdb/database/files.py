@@ -12,7 +12,7 @@ import numpy as np
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.convolution import RadiationKernel
-from hydrodae.hdb.database.extra import read_extra, write_extra
+from hydrodae.hdb.database.extra import label_text, read_extra, write_extra
 from hydrodae.hdb.database.layout import (
     BODY,
     BODY_NUMBERS,
@@ -60,7 +60,7 @@ def damaged(path: Path, fault: str) -> DatabaseError:
 
 def holds_format(f: h5py.File) -> bool:
     """Return whether an open file is a `hydro.h5`."""
-    return _text(f.attrs.get("format", "")) == FORMAT
+    return label_text(f.attrs.get("format", "")) == FORMAT
 
 
 def is_single(path: str | Path) -> bool:
@@ -217,17 +217,17 @@ def _read(f: h5py.File) -> dict[str, Any]:
     values = {name.rpartition("/")[2]: value for name, value in values.items()}
     stored = f["radiation_kernel"] if "radiation_kernel" in f else None
     fits = f["memory"] if "memory" in f else {}
-    texts: dict[str, Any] = {name: _text(f.attrs.get(name, "")) for name in ROOT_TEXT}
+    texts: dict[str, Any] = {name: label_text(f.attrs.get(name, "")) for name in ROOT_TEXT}
     water = {name: read_numbers(f, name, ()) for name in ("rho", "gravity", "water_depth")}
     return dict(
-        excitation_split=_text(f["excitation"].attrs.get("split", "")) != "total only",
+        excitation_split=label_text(f["excitation"].attrs.get("split", "")) != "total only",
         bodies=_read_bodies(f, bodies_of(values["coordinates"])),
-        added_mass_inf_origin=_text(f["added_mass_inf"].attrs.get("origin", "")),
+        added_mass_inf_origin=label_text(f["added_mass_inf"].attrs.get("origin", "")),
         kernel=None if stored is None else _read_kernel(stored),
         memory={name: _read_fit(name, fits[name]) for name in fits},
         extra=read_extra(f["extra"]) if "extra" in f else {},
         second_order=read_second_order(f["second_order"]) if "second_order" in f else {},
-        repairs=tuple(_text(f.attrs.get("repairs", "")).splitlines()),
+        repairs=tuple(label_text(f.attrs.get("repairs", "")).splitlines()),
         **texts,
         **water,
         **values,
@@ -290,10 +290,6 @@ def _report(group: h5py.Group) -> dict[str, Any]:
                 f"{count} number{'s' if count > 1 else ''}"
             ).about("shape", key, file=group.file.filename)
     return report
-
-
-def _text(value: Any) -> str:
-    return value.decode() if isinstance(value, bytes) else str(value)
 
 
 def _plain(value: Any) -> Any:

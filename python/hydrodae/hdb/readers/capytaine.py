@@ -16,11 +16,11 @@ from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.coordinates import unique_names
-from hydrodae.hdb.database.extra import kept_tables, shallow_findings
+from hydrodae.hdb.database.extra import kept_tables, label_text, shallow_findings
 from hydrodae.hdb.database.files import damaged
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.labels import DOFS
-from hydrodae.hdb.readers.capytaine_statics import attach_bodies, text
+from hydrodae.hdb.readers.capytaine_statics import attach_bodies
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.relations.dispersion import frequency
 from hydrodae.support.arrays import Array, Complex
@@ -199,8 +199,8 @@ def _coordinates(
     path: Path, ds: xr.Dataset, findings: list[Finding]
 ) -> tuple[list[str], tuple[str, ...]]:
     """Names of the degrees of freedom in the file, and their labels here, in the same order."""
-    influenced = [text(d) for d in np.atleast_1d(ds["influenced_dof"].values)]
-    radiating = [text(d) for d in np.atleast_1d(ds["radiating_dof"].values)]
+    influenced = [label_text(d) for d in np.atleast_1d(ds["influenced_dof"].values)]
+    radiating = [label_text(d) for d in np.atleast_1d(ds["radiating_dof"].values)]
     ds["influenced_dof"], ds["radiating_dof"] = influenced, radiating
     both = [d for d in influenced if d in radiating]
     rigid = [d for d in both if d.rpartition("__")[2].lower() in DOFS]
@@ -222,7 +222,7 @@ def _coordinates(
 def _single_body(path: Path, ds: xr.Dataset) -> str:
     for key in ("body", "body_name"):
         if key in ds.coords and ds[key].size == 1:
-            return text(ds[key].values.item())
+            return label_text(ds[key].values.item())
     return path.stem
 
 
@@ -249,7 +249,7 @@ def _force(ds: xr.Dataset, name: str, dofs: list[str], order: NDArray[np.intp]) 
         return None
     variable = ds[name].sel(influenced_dof=dofs)
     if "complex" in variable.dims:
-        labels = [text(c) for c in variable["complex"].values]
+        labels = [label_text(c) for c in variable["complex"].values]
         if sorted(labels) != ["im", "re"]:
             raise DatabaseError(f"dimension 'complex' of {name!r} is labelled {labels}").about(
                 "format", name

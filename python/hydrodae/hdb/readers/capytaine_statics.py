@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from hydrodae.hdb.database.extra import label_text
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import DOFS, bodies_of
@@ -97,7 +98,7 @@ def _mass(ds: xr.Dataset, labels: dict[int, str], displaced: float) -> float | N
 def _pick(variable: xr.DataArray, prefix: str, i: int, *, vector: bool) -> Any:
     """Entry of a body in a variable; all dimensions but the last one of vectors are over bodies."""
     for dim in variable.dims[:-1] if vector else variable.dims:
-        labels = [text(v) for v in variable[dim].values] if dim in variable.coords else []
+        labels = [label_text(v) for v in variable[dim].values] if dim in variable.coords else []
         variable = variable.isel({dim: labels.index(prefix) if prefix in labels else i})
     return variable.values
 
@@ -107,8 +108,3 @@ def _vector(ds: xr.Dataset, name: str, prefix: str, i: int) -> Array | None:
         return None
     value = np.asarray(_pick(ds[name], prefix, i, vector=True), dtype=float)
     return value if value.shape == (3,) and np.all(np.isfinite(value)) else None
-
-
-def text(value: Any) -> str:
-    """Return a label, which old files hold as bytes."""
-    return value.decode() if isinstance(value, bytes) else str(value)

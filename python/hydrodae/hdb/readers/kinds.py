@@ -14,6 +14,7 @@ from hydrodae.hdb.database.coordinates import nearest
 from hydrodae.hdb.readers.bemio import is_bemio_file
 from hydrodae.hdb.readers.foreign import foreign, foreign_in
 from hydrodae.hdb.readers.formats import expected_files, formats
+from hydrodae.hdb.readers.text import files_named, only
 from hydrodae.support.damaged import reading
 
 #: How far below the folder that was named, and in how many folders, runs are looked for.
@@ -60,14 +61,8 @@ def _folder(path: Path) -> tuple[Path, str]:
         found = format.find(path)
         if found is not None:
             return found, name
-    inside = _tables(path)
-    if len(inside) == 1:
-        return resolve(inside[0])
-    if inside:
-        names = ", ".join(p.name for p in inside[:6])
-        raise DatabaseError(f"which one is meant? {names}: name the file").about(
-            "ambiguous", file=path
-        )
+    if (table := only(_tables(path))) is not None:
+        return resolve(table)
     below = runs_below(path, _holds_one)
     if len(below) == 1:
         return _folder(below[0])
@@ -77,12 +72,8 @@ def _folder(path: Path) -> tuple[Path, str]:
         raise DatabaseError(f"databases are in the folders {names}{more}: name one of them").about(
             "ambiguous", file=path
         )
-    runs = [p.name for p in sorted(path.iterdir()) if p.suffix == ".1"]
-    if len(runs) > 1:
-        raise DatabaseError(f"which one is meant? {', '.join(runs[:6])}: name the file").about(
-            "ambiguous", file=path
-        )
-    lost = next(iter(_named(path, "RadiationCoefficients.tec")), None)
+    only([p for p in sorted(path.iterdir()) if p.suffix == ".1"])
+    lost = next(iter(files_named(path, "RadiationCoefficients.tec")), None)
     if lost is not None:
         raise DatabaseError(
             f"{lost.relative_to(path)} without the Nemoh.cal of its run, which holds the "
@@ -102,27 +93,13 @@ def _nemoh(path: Path) -> bool:
 
     A Nemoh.cal in a folder beside the results belongs to it; one above its own results does not.
     """
-    cals = _named(path, "Nemoh.cal")
+    cals = files_named(path, "Nemoh.cal")
     if len(cals) != 1:
         return False
     if cals[0].parent == path:
-        return bool(_named(path, "RadiationCoefficients.tec")) or not _tables(path)
-    results = _named(path, "RadiationCoefficients.tec")
+        return bool(files_named(path, "RadiationCoefficients.tec")) or not _tables(path)
+    results = files_named(path, "RadiationCoefficients.tec")
     return len(results) == 1
-
-
-def _named(path: Path, name: str) -> list[Path]:
-    """Files of that name, whatever its case, in a folder; where there is none, one folder below."""
-    for folders in ([path], [p for p in sorted(path.iterdir()) if p.is_dir()]):
-        found = [
-            p
-            for folder in folders
-            for p in sorted(folder.iterdir())
-            if p.is_file() and p.name.lower() == name.lower()
-        ]
-        if found:
-            return found
-    return []
 
 
 def _holds_one(path: Path) -> bool:

@@ -14,7 +14,7 @@ from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.hull.mesh_statics import mesh_statics
 from hydrodae.hdb.hull.meshes import read_mesh
 from hydrodae.hdb.readers.stiffness_file import read_stiffness
-from hydrodae.hdb.readers.text import finite, read_lines
+from hydrodae.hdb.readers.text import files_named, finite, read_lines
 from hydrodae.support.arrays import Array
 from hydrodae.support.naming import names_file
 
@@ -59,23 +59,16 @@ def find(root: Path, *names: str) -> Path | None:
         Two different files of that name at the same depth.
     """
     for name in names:
-        here = [p for p in root.iterdir() if p.is_file() and p.name.lower() == name.lower()]
-        below = [
-            p
-            for folder in sorted(root.iterdir())
-            if folder.is_dir()
-            for p in folder.iterdir()
-            if p.is_file() and p.name.lower() == name.lower()
-        ]
+        found = files_named(root, name)
         # mechanics/ repeats what the mesh folder holds
-        below = [p for p in below if p.parent.name.lower() != "mechanics"] or below
-        for found in (here, below):
-            if len(found) > 1:
-                raise DatabaseError(f"two files could be meant: {found[0]} and {found[1]}").about(
-                    "ambiguous"
-                )
-            if found:
-                return found[0]
+        repeats = [p for p in found if p.parent != root and p.parent.name.lower() == "mechanics"]
+        found = [p for p in found if p not in repeats] or found
+        if len(found) > 1:
+            raise DatabaseError(f"two files could be meant: {found[0]} and {found[1]}").about(
+                "ambiguous"
+            )
+        if found:
+            return found[0]
     return None
 
 

@@ -77,6 +77,20 @@ def finite(token: str) -> float:
     return value
 
 
+def files_named(path: Path, name: str) -> list[Path]:
+    """Files of that name, whatever its case, in a folder; where there is none, one folder below."""
+    for folders in ([path], [p for p in sorted(path.iterdir()) if p.is_dir()]):
+        found = [
+            p
+            for folder in folders
+            for p in sorted(folder.iterdir())
+            if p.is_file() and p.name.lower() == name.lower()
+        ]
+        if found:
+            return found
+    return []
+
+
 def only(found: Sequence[Path]) -> Path | None:
     """Return the one file found, None of none.
 
@@ -87,7 +101,7 @@ def only(found: Sequence[Path]) -> Path | None:
     """
     if len(found) > 1:
         text = f"which one is meant? {', '.join(p.name for p in found[:6])}: name the file"
-        raise DatabaseError(text).about("ambiguous")
+        raise DatabaseError(text).about("ambiguous", file=found[0].parent)
     return found[0] if found else None
 
 
