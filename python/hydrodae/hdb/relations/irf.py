@@ -86,11 +86,7 @@ def kramers_kronig(omega: ArrayLike, damping: ArrayLike, *, tail: bool = True) -
 
     Parameters
     ----------
-    omega : (nw,) array
-        Frequencies [rad/s].
-    damping : (nw, ...) array
-        Radiation damping B(w).
-    tail : bool
+    omega, damping, tail
         As in `radiation_kernel`. For a pair without tail the table is cut off at w_max, and values
         close to w_max (within a few per cent) mean little.
 
@@ -133,12 +129,10 @@ def added_mass_inf_estimates(
 
     Parameters
     ----------
-    omega : (nw,) array
-        Frequencies [rad/s].
-    added_mass, damping : (nw, ...) array
-        A(w), B(w).
-    tail : bool
+    omega, damping, tail
         As in `radiation_kernel`.
+    added_mass : (nw, ...) array
+        A(w).
 
     Returns
     -------
@@ -167,10 +161,8 @@ def added_mass_inf(
 
     Parameters
     ----------
-    omega : (nw,) array
-        Frequencies [rad/s].
-    added_mass, damping : (nw, ...) array
-        A(w), B(w).
+    omega, added_mass, damping
+        As in `added_mass_inf_estimates`.
 
     Returns
     -------
