@@ -10,7 +10,7 @@ import pytest
 from tests.errors import refused
 
 from hydrodae import hdb
-from hydrodae.hdb.checks.depth import depth_findings
+from hydrodae.hdb.checks.energy import depth_findings
 from hydrodae.hdb.readers.reading import read_source
 from hydrodae.hdb.relations.depth import depth_of_bodies, mean_over_headings
 

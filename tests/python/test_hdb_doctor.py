@@ -13,10 +13,9 @@ from tests.python.hdb_command import call
 from hydrodae import hdb
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.checks.energy import energy_identity
-from hydrodae.hdb.checks.examination import examination
 from hydrodae.hdb.checks.irregular import bands, suspect_rows
 from hydrodae.hdb.checks.repair import repair
-from hydrodae.hdb.database.findings import CheckReport, Finding
+from hydrodae.hdb.database.findings import CheckReport, Finding, examination
 from hydrodae.hdb.relations.dispersion import group_velocity
 
 

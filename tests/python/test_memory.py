@@ -1,12 +1,10 @@
-"""Exponential memory: closed-form kernels, loads on fixed bodies, storage, bad input."""
+"""Exponential memory: closed-form kernels, loads on fixed bodies, bad input."""
 
 from __future__ import annotations
 
 import warnings
 from dataclasses import replace
-from pathlib import Path
 
-import h5py
 import numpy as np
 import pytest
 from tests.errors import refused
@@ -167,34 +165,6 @@ def test_fit_is_deterministic(exact: Table, fitted: ExponentialMemory) -> None:
     again = fit_memory(exact, LABELS)
     assert np.array_equal(again.poles, fitted.poles)
     assert np.array_equal(again.output_matrix, fitted.output_matrix)
-
-
-def test_write_and_read_give_the_same_fit(fitted: ExponentialMemory, tmp_path: Path) -> None:
-    path = tmp_path / "hydro.h5"
-    with h5py.File(path, "w") as file:
-        group = file.create_group("memory")
-        fitted.write(group)
-        fitted.write(group)  # replaces
-    with h5py.File(path) as file:
-        stored = file["memory/exact"]
-        assert stored["poles"].dtype == np.complex128
-        assert stored["inputs"].dtype == np.dtype("S32")
-        assert stored.attrs["n_states"] == 6
-        read = ExponentialMemory.read(stored)
-    assert (read.name, read.inputs, read.outputs) == ("exact", fitted.inputs, fitted.outputs)
-    for key in ("poles", "input_matrix", "output_matrix", "added_mass_inf"):
-        assert np.array_equal(getattr(read, key), getattr(fitted, key))
-    assert read.report == fitted.report
-
-
-def test_reading_an_incomplete_fit_names_what_is_missing(
-    fitted: ExponentialMemory, tmp_path: Path
-) -> None:
-    with h5py.File(tmp_path / "hydro.h5", "w") as file:
-        fitted.write(file)
-        del file["exact/poles"]
-        with refused("missing", "poles"):
-            ExponentialMemory.read(file["exact"])
 
 
 @pytest.mark.parametrize(

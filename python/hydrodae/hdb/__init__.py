@@ -20,13 +20,12 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from hydrodae.hdb.checks.check import check
     from hydrodae.hdb.checks.compare import compare, grid_sensitivity
-    from hydrodae.hdb.checks.examination import examination
     from hydrodae.hdb.checks.repair import repair
     from hydrodae.hdb.checks.report import draw_report
     from hydrodae.hdb.database import HydroDatabase
     from hydrodae.hdb.database.coordinates import expand
     from hydrodae.hdb.database.files import write
-    from hydrodae.hdb.database.findings import CheckReport, Finding
+    from hydrodae.hdb.database.findings import CheckReport, Finding, examination
     from hydrodae.hdb.database.tables import Body
     from hydrodae.hdb.database.writers import export
     from hydrodae.hdb.hull.hydrostatics import Hydrostatics
@@ -72,7 +71,7 @@ _LATER = {
     "Cylinder": "interaction.cylinder",
     "cylinders": "preparation.cylinder_array",
     "draw_report": "checks.report",
-    "examination": "checks.examination",
+    "examination": "database.findings",
     "expand": "database.coordinates",
     "export": "database.writers",
     "Finding": "database.findings",

@@ -12,10 +12,9 @@ from hydrodae.commands.machine import of_database, print_json
 from hydrodae.commands.options import add_json
 from hydrodae.errors import CaseError
 from hydrodae.hdb.checks.check import check
-from hydrodae.hdb.checks.examination import examination
 from hydrodae.hdb.checks.repair import MOST_REPLACED, repair
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.database.findings import CheckReport
+from hydrodae.hdb.database.findings import CheckReport, examination
 from hydrodae.hdb.preparation.importing import import_database
 
 DONE, BAD_DATA = 0, 2

@@ -132,18 +132,18 @@ def _inside(points: Array, loops: list[Array]) -> NDArray[np.bool_]:
 
 def _rings(loop: Array, size: float) -> Array | None:
     """Rings (m, 4, 2) around the middle; None if not every point of the loop is seen from there."""
-    turned = loop if _shoelace(loop) > 0.0 else loop[::-1]
-    arm = turned - turned.mean(axis=0)
-    other = np.roll(arm, -1, axis=0)
-    if np.any(arm[:, 0] * other[:, 1] - arm[:, 1] * other[:, 0] <= 0.0):
+    middle = loop.mean(axis=0)
+    arm = _radii(loop - middle)
+    if arm is None:
         return None
+    other = np.roll(arm, -1, axis=0)
     count = max(2, int(np.ceil(np.linalg.norm(arm, axis=1).mean() / size - 1e-9)))
     scale = np.linspace(0.0, 1.0, count + 1)
     parts = []
     for inner, outer in pairwise(scale):
         # the middle stands last: a triangle repeats its last corner
         parts.append(np.stack([outer * arm, outer * other, inner * other, inner * arm], axis=1))
-    return np.asarray(np.concatenate(parts) + turned.mean(axis=0))
+    return np.asarray(np.concatenate(parts) + middle)
 
 
 def _between(loops: list[Array], size: float) -> Array | None:

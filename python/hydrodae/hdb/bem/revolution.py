@@ -1,7 +1,7 @@
 """Wetted surfaces of revolution about a vertical axis: cones, rings, and any profile.
 
 Polygons around the axis have the area of their circle, so that volumes of surfaces whose meridian
-is a polyline are exact.
+is a polyline are exact. Arguments, results and errors as of `hydrodae.hdb.bem.shapes`.
 """
 
 from __future__ import annotations
@@ -29,22 +29,7 @@ def cone(
 ) -> Array:
     """Cone from `radius` at z = top to the radius `bottom` at z = -draft, closed below.
 
-    Parameters
-    ----------
-    size : float
-        Largest length of a panel's side [m].
-    radius, draft, bottom, top, x, y : float
-        [m]; bottom 0 gives a tip; top <= 0, and the upper end is closed where it is below the
-        water plane. A cone that widens downwards has bottom > radius.
-
-    Returns
-    -------
-    (n, 4, 3) array
-
-    Raises
-    ------
-    CaseError
-        A length is not > 0, or top > 0 or below -draft.
+    Bottom 0 gives a tip; a cone that widens downwards has bottom > radius.
     """
     positive(size=size, radius=radius, draft=draft)
     if bottom != 0.0:
@@ -68,24 +53,7 @@ def ring(
     x: float = 0.0,
     y: float = 0.0,
 ) -> Array:
-    """Vertical cylinder with a moonpool of radius `inner`, from z = top down to z = -draft.
-
-    Parameters
-    ----------
-    size : float
-        Largest length of a panel's side [m].
-    radius, inner, draft, top, x, y : float
-        [m]; top <= 0, and the upper side is closed where it is below the water plane.
-
-    Returns
-    -------
-    (n, 4, 3) array
-
-    Raises
-    ------
-    CaseError
-        A length is not > 0, inner is not below radius, or top > 0 or below -draft.
-    """
+    """Vertical cylinder with a moonpool of radius `inner`, from z = top down to z = -draft."""
     positive(size=size, radius=radius, inner=inner, draft=draft)
     check_top("ring", top, draft)
     if inner >= radius:

@@ -21,7 +21,7 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb.bem.green import solve
 from hydrodae.hdb.bem.lids import lid
 from hydrodae.hdb.bem.overlap import overlapping
-from hydrodae.hdb.database.shallow import SHALLOW
+from hydrodae.hdb.database.extra import SHALLOW
 from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.support.arrays import Array
 from hydrodae.support.extras import install_command

@@ -2,6 +2,10 @@
 
 A surface is an array (n, 4, 3) [m] of corners, counter-clockwise seen from the water; a triangle
 repeats its last corner. Surfaces are open at the water plane z = 0 and closed everywhere else.
+
+All shapes take the largest length of a panel's side, `size`, and their lengths in metres. They
+return such an array, and raise a CaseError where a length is not > 0 or does not fit the others.
+The upper end, z = `top` <= 0, is closed where it is under water; the lower is at -`draft`.
 """
 
 from __future__ import annotations
@@ -32,22 +36,6 @@ def sphere(size: float, *, radius: float, x: float = 0.0, y: float = 0.0, z: flo
 
     Polygons around the axis have the area of their circle; a vertical stretch (about the water
     plane, or about the centre if submerged) makes up for the meridian.
-
-    Parameters
-    ----------
-    size : float
-        Largest length of a panel's side [m].
-    radius, x, y, z : float
-        [m].
-
-    Returns
-    -------
-    (n, 4, 3) array
-
-    Raises
-    ------
-    CaseError
-        Not in the water, or a length is not > 0.
     """
     positive(size=size, radius=radius)
     if z >= radius:
@@ -68,24 +56,7 @@ def sphere(size: float, *, radius: float, x: float = 0.0, y: float = 0.0, z: flo
 def cylinder(
     size: float, *, radius: float, draft: float, top: float = 0.0, x: float = 0.0, y: float = 0.0
 ) -> Array:
-    """Vertical cylinder from z = top down to z = -draft; its polygons have the area of the circle.
-
-    Parameters
-    ----------
-    size : float
-        Largest length of a panel's side [m].
-    radius, draft, top, x, y : float
-        [m]; top <= 0, and the upper end is closed where it is below the water plane.
-
-    Returns
-    -------
-    (n, 4, 3) array
-
-    Raises
-    ------
-    CaseError
-        A length is not > 0, or top > 0 or below -draft.
-    """
+    """Vertical cylinder from z = top to z = -draft; its polygons have the area of the circle."""
     positive(size=size, radius=radius, draft=draft)
     check_top("cylinder", top, draft)
     side, disc = count(draft + top, size), count(radius, size)
@@ -109,24 +80,7 @@ def box(
     x: float = 0.0,
     y: float = 0.0,
 ) -> Array:
-    """Box of length (along x) and width (along y) from z = top down to z = -draft.
-
-    Parameters
-    ----------
-    size : float
-        Largest length of a panel's side [m].
-    length, width, draft, top, x, y : float
-        [m]; top <= 0, and the upper side is closed where it is below the water plane.
-
-    Returns
-    -------
-    (n, 4, 3) array
-
-    Raises
-    ------
-    CaseError
-        A length is not > 0, or top > 0 or below -draft.
-    """
+    """Box of length (along x) and width (along y) from z = top down to z = -draft."""
     positive(size=size, length=length, width=width, draft=draft)
     check_top("box", top, draft)
     half = np.array([0.5 * length, 0.5 * width])
@@ -217,16 +171,12 @@ def hydrostatics(panels: ArrayLike, point: ArrayLike) -> Hydrostatics:
     mean = middle.mean(axis=1)
     by_axis = (mean * area).sum(axis=0)
     volume = float(by_axis[2])
-    if volume <= 1e-6 * float(np.abs(by_axis).max()) and by_axis.max() > 0.0:
-        shown = ", ".join(f"{v:.5g}" for v in by_axis)
-        raise DatabaseError(f"the surface has holes: its volume by x, y, z is {shown} m3").about(
-            "mesh", "holes"
-        )
-    if volume <= 0.0:
+    open_below = volume <= 1e-6 * float(np.abs(by_axis).max()) and by_axis.max() > 0.0
+    if volume <= 0.0 and not open_below:
         raise NoWaterError(
             "the surface displaces no water: it is dry, or its normals point inwards"
         ).about("mesh", "normals")
-    if np.abs(by_axis - volume).max() > LEAK * volume:
+    if open_below or np.abs(by_axis - volume).max() > LEAK * volume:
         shown = ", ".join(f"{v:.5g}" for v in by_axis)
         raise DatabaseError(f"the surface has holes: its volume by x, y, z is {shown} m3").about(
             "mesh", "holes"

@@ -11,9 +11,8 @@ from __future__ import annotations
 import numpy as np
 
 from hydrodae.hdb.checks.band import LEAST_DAMPING, Band, damping_sizes, felt_band, inside
-from hydrodae.hdb.checks.depth import depth_findings
 from hydrodae.hdb.checks.drift import drift_findings
-from hydrodae.hdb.checks.energy import energy_findings
+from hydrodae.hdb.checks.energy import depth_findings, energy_findings
 from hydrodae.hdb.checks.fits import fit_findings
 from hydrodae.hdb.checks.ground import of_what_moves
 from hydrodae.hdb.checks.headings import heading_findings
@@ -32,6 +31,7 @@ from hydrodae.hdb.database.kernels import diagonal_kernels, envelope_length, res
 from hydrodae.hdb.database.scales import scaled_damping_eigenvalues, scales
 from hydrodae.hdb.labels import rigid
 from hydrodae.hdb.relations import irf, tails
+from hydrodae.hdb.relations.entries import asymmetry, worst
 
 
 def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
@@ -97,54 +97,37 @@ def _unchecked(modes: int) -> Finding:
 def _grid(db: HydroDatabase) -> list[Finding]:
     w, b = db.omega, np.einsum("wii->wi", db.radiation_damping)[:, scales(db) > 0.0]
     steps = np.diff(w)
-    found = [
-        Finding(
-            "info",
-            "frequency grid",
-            f"{w.size} frequencies {w[0]:.4g}..{w[-1]:.4g} rad/s, steps {steps.min():.3g}.."
-            f"{steps.max():.3g}; resolves a memory of about {resolved_time(db):.3g} s",
-        )
-    ]
+    text = (
+        f"{w.size} frequencies {w[0]:.4g}..{w[-1]:.4g} rad/s, steps {steps.min():.3g}.."
+        f"{steps.max():.3g}; resolves a memory of about {resolved_time(db):.3g} s"
+    )
+    found = [Finding("info", "frequency grid", text)]
     if b.shape[1] == 0:
         return found
     gap = irf.low_frequency_gap(w, b)
     if gap > irf.LOW_GAP:
-        found.append(
-            Finding(
-                "warning",
-                "low frequencies",
-                f"the grid begins at {gap:.2g} of the frequency where B peaks (wanted: 0.1): "
-                f"K(t) and slow motions rest on extrapolation",
-                value=gap,
-                omega=float(w[0]),
-            )
+        text = (
+            f"the grid begins at {gap:.2g} of the frequency where B peaks (wanted: 0.1): "
+            f"K(t) and slow motions rest on extrapolation"
         )
+        found.append(Finding("warning", "low frequencies", text, gap, float(w[0])))
     rest = np.abs(b[-1]) / b.max(axis=0)
     cut = rest * ~tails.fit_tail(w, b).used
     if cut.max() > 0.02:
-        found.append(
-            Finding(
-                "warning",
-                "high frequencies",
-                f"at the last frequency B is still {cut.max():.2g} of its peak and follows no "
-                f"power law: K(0) and added_mass_inf are uncertain",
-                value=float(cut.max()),
-                omega=float(w[-1]),
-            )
+        text = (
+            f"at the last frequency B is still {cut.max():.2g} of its peak and follows no "
+            f"power law: K(0) and added_mass_inf are uncertain"
         )
+        found.append(Finding("warning", "high frequencies", text, float(cut.max()), float(w[-1])))
     around = [(b[:, i] > 0.5 * b[:, i].max()).sum() for i in range(b.shape[1])]
     if min(around) < 5:
         i = int(np.argmin(around))
-        found.append(
-            Finding(
-                "warning",
-                "resolution",
-                f"only {min(around)} frequencies where B exceeds half its peak: a narrow peak is "
-                f"under-resolved, or a spike (irregular frequency)",
-                value=float(min(around)),
-                omega=float(w[b[:, i].argmax()]),
-            )
+        text = (
+            f"only {min(around)} frequencies where B exceeds half its peak: a narrow peak is "
+            f"under-resolved, or a spike (irregular frequency)"
         )
+        at = float(w[b[:, i].argmax()])
+        found.append(Finding("warning", "resolution", text, float(min(around)), at))
     return found
 
 
@@ -163,23 +146,17 @@ def _memory(db: HydroDatabase) -> list[Finding]:
     names = ", ".join(
         f"{db.coordinates[c]} {p}" for c, p in list(zip(used, powers, strict=True))[:8]
     )
+    lasts = (
+        f"K(t) lasts {lengths[i]:.3g} s ({db.coordinates[used[i]]}; 99.9 % of int |K| dt) of "
+        f"the {min(resolved, time[-1]):.3g} s that the frequency step resolves; "
+        f"{rest.max():.1g} of its peak is left at the end"
+    )
+    level = "warning" if rest.max() > 0.02 else "info"
+    text = f"powers n of B ~ w^-n at the last frequencies: {names}"
+    text += " ..." if len(powers) > 8 else ""
     return [
-        Finding(
-            "warning" if rest.max() > 0.02 else "info",
-            "memory length",
-            f"K(t) lasts {lengths[i]:.3g} s ({db.coordinates[used[i]]}; 99.9 % of int |K| dt) of "
-            f"the {min(resolved, time[-1]):.3g} s that the frequency step resolves; "
-            f"{rest.max():.1g} of its peak is left at the end",
-            value=float(lengths[i]),
-        ),
-        Finding(
-            "info",
-            "tail",
-            f"powers n of B ~ w^-n at the last frequencies: {names}"
-            + (" ..." if len(powers) > 8 else ""),
-            value=float(np.mean(tail.used)),
-            omega=float(db.omega[-1]),
-        ),
+        Finding(level, "memory length", lasts, float(lengths[i])),
+        Finding("info", "tail", text, float(np.mean(tail.used)), float(db.omega[-1])),
     ]
 
 
@@ -187,22 +164,11 @@ def _symmetry(db: HydroDatabase) -> list[Finding]:
     """A and B of the database itself (readers symmetrise and report what they found)."""
     found = []
     for name in ("added_mass", "radiation_damping"):
-        table = getattr(db, name)
-        size = np.sqrt(np.abs(np.einsum("wii->wi", table)).max(axis=0))
-        scale = np.outer(size, size)
-        scale[scale <= 1e-6 * scale.max()] = np.inf
-        error = (np.abs(table - table.transpose(0, 2, 1)) / scale).max(axis=(1, 2))
-        at = int(error.argmax())
-        if error[at] > 1e-6:
-            found.append(
-                Finding(
-                    "warning" if error[at] > 0.02 else "info",
-                    f"{name} symmetric",
-                    f"largest asymmetry {error[at]:.2g} of the diagonal",
-                    float(error[at]),
-                    float(db.omega[at]),
-                )
-            )
+        error, (at, _, _) = worst(asymmetry(getattr(db, name)))
+        if error > 1e-6:
+            level = "warning" if error > 0.02 else "info"
+            text = f"largest asymmetry {error:.2g} of the diagonal"
+            found.append(Finding(level, f"{name} symmetric", text, error, float(db.omega[at])))
     return found
 
 
@@ -268,14 +234,9 @@ def _energy(db: HydroDatabase, band: Band) -> list[Finding]:
         scaled = db.added_mass_inf[square] / np.outer(diagonal[used], diagonal[used])
         value = float(np.linalg.eigvalsh(scaled)[0])
         if value < -0.02:
-            found.append(
-                Finding(
-                    "warning",
-                    "added_mass_inf positive semidefinite",
-                    f"smallest eigenvalue of the scaled matrix is {value:.2g}",
-                    value,
-                )
-            )
+            text = f"smallest eigenvalue of the scaled matrix is {value:.2g}"
+            check = "added_mass_inf positive semidefinite"
+            found.append(Finding("warning", check, text, value))
     return found
 
 

@@ -14,6 +14,7 @@ from hydrodae.hdb.database.kernels import diagonal_kernels
 from hydrodae.hdb.database.scales import scales
 from hydrodae.hdb.labels import bodies_of
 from hydrodae.hdb.relations import infinity, irf
+from hydrodae.hdb.relations.entries import entry_scale, worst
 from hydrodae.support.arrays import Array
 
 
@@ -82,13 +83,10 @@ def compare(a: HydroDatabase, b: HydroDatabase) -> list[Difference]:
     found = []
     for name in ("added_mass", "radiation_damping"):
         x, y = getattr(a, name)[inside], CubicSpline(b.omega, getattr(b, name))(w)
-        size = np.sqrt(np.abs(np.einsum("wii->wi", y)).max(axis=0))
-        error = np.abs(x - y) / np.outer(size, size)
-        found.append(_matrix(name, error, labels, w))
+        found.append(_matrix(name, np.abs(x - y) / entry_scale(y, -1.0), labels, w))
     found += _excitation(a, b, inside, labels)
-    size = np.sqrt(np.abs(np.diag(b.added_mass_inf)))
-    error = np.abs(a.added_mass_inf - b.added_mass_inf)[None] / np.outer(size, size)
-    found.append(_matrix("added_mass_inf", error, labels, None))
+    error = np.abs(a.added_mass_inf - b.added_mass_inf) / entry_scale(b.added_mass_inf, -1.0)
+    found.append(_matrix("added_mass_inf", error[None], labels, None))
     found.append(_kernels(a, b, labels))
     return found
 
@@ -162,9 +160,9 @@ def _infinity(database: HydroDatabase, used: NDArray[np.intp]) -> Array:
 
 
 def _matrix(name: str, error: Array, labels: list[str], w: Array | None) -> Difference:
-    k, i, j = np.unravel_index(error.argmax(), error.shape)
+    value, (k, i, j) = worst(error)
     entry = labels[i] if i == j else f"{labels[i]} from {labels[j]}"
-    return Difference(name, float(error[k, i, j]), entry, "" if w is None else _at(float(w[k])))
+    return Difference(name, value, entry, "" if w is None else _at(float(w[k])))
 
 
 def _excitation(
@@ -183,14 +181,9 @@ def _excitation(
     y = CubicSpline(b.omega, b.excitation)(w)[:, [j for _, j in pairs]]
     size = np.abs(y).max(axis=(0, 1))
     size[size < 1e-4 * size.max()] = np.inf
-    error = np.abs(x - y) / size
-    k, h, i = np.unravel_index(error.argmax(), error.shape)
+    value, (k, h, i) = worst(np.abs(x - y) / size)
     heading = np.degrees(a.heading[pairs[h][0]])
-    return [
-        Difference(
-            "excitation", float(error[k, h, i]), labels[i], f", {heading:.4g} deg{_at(float(w[k]))}"
-        )
-    ]
+    return [Difference("excitation", value, labels[i], f", {heading:.4g} deg{_at(float(w[k]))}")]
 
 
 def _kernels(a: HydroDatabase, b: HydroDatabase, labels: list[str]) -> Difference:
@@ -199,9 +192,8 @@ def _kernels(a: HydroDatabase, b: HydroDatabase, labels: list[str]) -> Differenc
     other = irf.radiation_kernel(
         a.omega, a.radiation_damping[:, columns, columns], time, extrapolate=True
     )
-    error = np.abs(other - kernel) / np.abs(kernel).max(axis=0)
-    t, i = np.unravel_index(error.argmax(), error.shape)
-    return Difference("K(t)", float(error[t, i]), labels[columns[i]], f" [t = {time[t]:.3g} s]")
+    value, (t, i) = worst(np.abs(other - kernel) / np.abs(kernel).max(axis=0))
+    return Difference("K(t)", value, labels[columns[i]], f" [t = {time[t]:.3g} s]")
 
 
 def _at(omega: float) -> str:

@@ -20,7 +20,9 @@ from hydrodae.hdb.checks.irregular import suspect_rows
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.scales import scales
+from hydrodae.hdb.relations.depth import depth_of_bodies
 from hydrodae.hdb.relations.dispersion import group_velocity, wavenumber
+from hydrodae.hdb.relations.entries import entry_scale
 from hydrodae.support.arrays import Array
 
 #: Fewest frequencies with enough damping that a verdict rests on.
@@ -153,6 +155,33 @@ def energy_findings(database: HydroDatabase, band: Band | None = None) -> list[F
     return [Finding(severity, "damping from excitation", text, error, omega)]
 
 
+def depth_findings(db: HydroDatabase) -> list[Finding]:
+    """Warn where damping and force of heave agree in water of another depth only.
+
+    Parameters
+    ----------
+    db : HydroDatabase
+        With headings all round, or from 0 to 180 degrees.
+    """
+    told = depth_of_bodies(
+        db.coordinates,
+        db.omega,
+        db.radiation_damping,
+        db.heading,
+        db.excitation,
+        db.rho,
+        db.gravity,
+    )
+    if told is None or told.agrees(db.water_depth):
+        return []
+    best = f"{told.depth:.4g} m" if np.isfinite(told.depth) else f"more than {told.low:.3g} m"
+    text = (
+        f"stated as {db.water_depth:g} m, but damping and force of heave agree in {best}: "
+        f"state the depth of the computation (--depth)"
+    )
+    return [Finding("warning", "water depth", text, omega=float(db.omega[0]))]
+
+
 def _circle(db: HydroDatabase) -> Array | None:
     """Weights (nh,) [rad] of the integral over all directions; None if the headings leave gaps."""
     # each direction once: a full turn closes headings that go all round
@@ -214,10 +243,7 @@ def _symmetric_about_y(db: HydroDatabase) -> bool:
 
 def _coupling(db: HydroDatabase, pairs: NDArray[np.bool_]) -> float:
     """Largest |A_ij| of the given pairs over sqrt(A_ii A_jj)."""
-    size = np.sqrt(np.abs(np.einsum("wii->wi", db.added_mass)).max(axis=0))
-    scale = np.outer(size, size)
-    scale[scale <= 1e-6 * scale.max()] = np.inf
-    return float(np.abs(db.added_mass / scale)[:, pairs].max(initial=0.0))
+    return float(np.abs(db.added_mass / entry_scale(db.added_mass))[:, pairs].max(initial=0.0))
 
 
 def _axisymmetric(db: HydroDatabase) -> bool:

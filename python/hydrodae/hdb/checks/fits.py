@@ -40,15 +40,10 @@ def fit_findings(database: HydroDatabase) -> list[Finding]:
         passive = fit.report.get("passive")
         rms = float(np.sqrt(np.mean(worst**2)))
         severity = "error" if rms > 0.3 else "warning" if rms > 0.05 or not passive else "info"
-        found.append(
-            Finding(
-                severity,
-                "memory fit",
-                f"{name}: H differs from the tables by {rms:.2g} rms of the largest damping, "
-                f"{worst[at]:.2g} at worst ({fit.outputs[i]} from {fit.inputs[j]}); added_mass_inf "
-                f"by {(shift / mass).max():.2g}; {'passive' if passive else 'NOT passive'}",
-                rms,
-                float(w[at]),
-            )
+        text = (
+            f"{name}: H differs from the tables by {rms:.2g} rms of the largest damping, "
+            f"{worst[at]:.2g} at worst ({fit.outputs[i]} from {fit.inputs[j]}); added_mass_inf "
+            f"by {(shift / mass).max():.2g}; {'passive' if passive else 'NOT passive'}"
         )
+        found.append(Finding(severity, "memory fit", text, rms, float(w[at])))
     return found

@@ -221,16 +221,12 @@ def _heave(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
     least = k33 - inertia
     most = k33 - inertia * _vertical_decay(wave.k, keel, db.water_depth)
     error = float(abs(force - np.clip(force.real, least, most)) / max(k33, 1e-9 * abs(force)))
-    return [
-        Finding(
-            "error" if error > 0.15 else "warning" if error > 0.05 else "info",
-            "heave force against stiffness",
-            f"{body.name}: long-wave heave force {abs(force):.4g} N/m, "
-            f"rho g A_w - w^2 (rho V + A) = {k33 - inertia:.4g} N/m",
-            error,
-            wave.omega,
-        )
-    ]
+    level = "error" if error > 0.15 else "warning" if error > 0.05 else "info"
+    text = (
+        f"{body.name}: long-wave heave force {abs(force):.4g} N/m, "
+        f"rho g A_w - w^2 (rho V + A) = {k33 - inertia:.4g} N/m"
+    )
+    return [Finding(level, "heave force against stiffness", text, error, wave.omega)]
 
 
 def _size(db: HydroDatabase, body: Body) -> float:
@@ -276,16 +272,12 @@ def _displacement(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
     error = off(volume)
     if error > 0.05 and np.isfinite(depth) and off(deep) < 0.02:
         hint = f"; {deep:.5g} m3 if it was computed in deep water, not in {depth:g} m"
-    return [
-        Finding(
-            "error" if error > 0.3 else "warning" if error > 0.05 else "info",
-            "displacement",
-            f"{body.name}: {hs.displaced_volume:.5g} m3 by hydrostatics, {volume:.5g} m3 by the "
-            f"long-wave {dof} force{hint}",
-            error,
-            wave.omega,
-        )
-    ]
+    level = "error" if error > 0.3 else "warning" if error > 0.05 else "info"
+    text = (
+        f"{body.name}: {hs.displaced_volume:.5g} m3 by hydrostatics, {volume:.5g} m3 by the "
+        f"long-wave {dof} force{hint}"
+    )
+    return [Finding(level, "displacement", text, error, wave.omega)]
 
 
 def _pitch(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
@@ -307,13 +299,9 @@ def _pitch(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
     k55 = db.hydrostatic_stiffness(body.name)[4, 4]
     found = force.imag / (wave.k * wave.cosine)
     error = abs(found - k55) / (db.rho * db.gravity * parts)
-    return [
-        Finding(
-            "warning" if error > 0.1 else "info",
-            "pitch moment against stiffness",
-            f"{body.name}: K55 = {k55:.4g} N m by hydrostatics, {found:.4g} by the long-wave "
-            f"moment (differs if the moments are about another point)",
-            error,
-            wave.omega,
-        )
-    ]
+    text = (
+        f"{body.name}: K55 = {k55:.4g} N m by hydrostatics, {found:.4g} by the long-wave "
+        f"moment (differs if the moments are about another point)"
+    )
+    level = "warning" if error > 0.1 else "info"
+    return [Finding(level, "pitch moment against stiffness", text, error, wave.omega)]

@@ -23,7 +23,7 @@ from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.scales import scales
 from hydrodae.hdb.labels import read_labels
-from hydrodae.hdb.relations.dispersion import group_velocity, wavenumber
+from hydrodae.hdb.relations.dispersion import damping_of_waves
 from hydrodae.support.arrays import Array
 
 #: Fewest frequencies that a verdict rests on.
@@ -104,9 +104,7 @@ def _logs(db: HydroDatabase) -> tuple[dict[str, float], set[str]]:
     tank: set[str] = set()
     if not db.heading.size:
         return found, tank
-    k = wavenumber(db.omega, db.water_depth, db.gravity)
-    speed = group_velocity(db.omega, db.water_depth, db.gravity)
-    factor = k / (8.0 * db.rho * db.gravity * speed)
+    k, factor = damping_of_waves(db.omega, db.water_depth, db.gravity, db.rho)
     held, active = standing(db), scales(db) > 0.0
     clean = clean_rows(db, held)
     for i, label in enumerate(db.labels):

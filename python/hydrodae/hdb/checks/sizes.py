@@ -25,7 +25,7 @@ from hydrodae.hdb.checks.one_heading import clean_rows, in_a_tank
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
-from hydrodae.hdb.relations.dispersion import group_velocity, wavenumber
+from hydrodae.hdb.relations.dispersion import damping_of_waves, wavenumber
 from hydrodae.support.arrays import Array
 
 #: Fewest frequencies, and longest k times a length, of a verdict on forces and on damping.
@@ -209,10 +209,8 @@ def _of_damping(database: HydroDatabase, names: Sequence[str]) -> Finding | None
         return None
     ratio, label, _ = max(wrong, key=lambda item: abs(np.log(item[0])) - np.log(item[2]))
     text = f"the hull and A imply {ratio:.3g} times the B of long waves in {label}"
-    if len(names) > 1:
-        text += " (rows of another body, "
-        return Finding("error", "damping from hull", f"{text}{UNITS})", ratio)
-    return Finding("error", "damping from hull", f"{text}: {UNITS}", ratio)
+    text += f" (rows of another body, {UNITS})" if len(names) > 1 else f": {UNITS}"
+    return Finding("error", "damping from hull", text, ratio)
 
 
 def _damping_of(
@@ -241,18 +239,16 @@ def _damping_of(
     force = k * db.gravity * (db.rho * volume * decay + added)
     if dof == 2:
         assert statics is not None
-        stiffness, inertia = (
-            db.rho * db.gravity * statics.waterplane_area,
-            db.omega**2 * (db.rho * volume + added),
-        )
+        stiffness = db.rho * db.gravity * statics.waterplane_area
+        inertia = db.omega**2 * (db.rho * volume + added)
         force, used = stiffness - inertia, used & (inertia < FOLLOWS * stiffness)
     if not used.any() or np.mean(b[used] > 0.0) < 0.8:
         return None
     used = used & (b > 0.01 * b[used].max())
     if np.count_nonzero(used) < FEWEST:
         return None
-    speed = group_velocity(db.omega, db.water_depth, db.gravity)
-    implied = k / (8.0 * db.rho * db.gravity * speed) * force**2 * (2.0 if dof == 2 else 1.0)
+    _, factor = damping_of_waves(db.omega, db.water_depth, db.gravity, db.rho)
+    implied = factor * force**2 * (2.0 if dof == 2 else 1.0)
     return float(np.median(implied[used] / b[used])), label, limit
 
 

@@ -15,11 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.database.findings import Finding
 from hydrodae.support.arrays import Array, Complex
 
 if TYPE_CHECKING:
     import xarray as xr
 
+#: Attribute of the netCDF file: frequencies [rad/s] that were solved with FinGreen3D.
+SHALLOW = "shallow_omega"
 KEPT = ("kochin", "drift")
 """Variables of Capytaine whose names hold one of these words are kept."""
 
@@ -61,7 +64,7 @@ def kept_tables(dataset: xr.Dataset) -> dict[str, SourceTable]:
             continue
         if "complex" in variable.dims:
             values = variable.transpose("complex", ...).values
-            parts = [_label(c) for c in variable["complex"].values]
+            parts = [label_text(c) for c in variable["complex"].values]
             both = values[parts.index("re")] + 1j * values[parts.index("im")]
             dims = tuple(str(d) for d in variable.dims if d != "complex")
         else:
@@ -72,6 +75,19 @@ def kept_tables(dataset: xr.Dataset) -> dict[str, SourceTable]:
         kind = complex if np.iscomplexobj(both) else float
         found[str(name)] = SourceTable(np.asarray(both, dtype=kind), dims, axes)
     return found
+
+
+def shallow_findings(data: xr.Dataset) -> list[Finding]:
+    """Report the frequencies of a netCDF file that were solved with FinGreen3D."""
+    omega = np.atleast_1d(data.attrs.get(SHALLOW, []))
+    if not omega.size:
+        return []
+    text = (
+        f"{omega.size} frequencies up to {omega.max():.4g} rad/s have waves too long for "
+        f"Capytaine's usual Green function of a finite depth: solved with FinGreen3D, without a "
+        f"lid, to some per cent"
+    )
+    return [Finding("warning", "shallow water", text, omega=float(omega.max()))]
 
 
 def write_extra(group: h5py.Group, tables: Mapping[str, SourceTable]) -> None:
@@ -116,8 +132,9 @@ def read_extra(group: h5py.Group) -> dict[str, SourceTable]:
 def _axis(values: NDArray[np.generic]) -> Array | tuple[str, ...]:
     if values.dtype.kind in "fiu":
         return np.asarray(values, dtype=float)
-    return tuple(_label(value) for value in values)
+    return tuple(label_text(value) for value in values)
 
 
-def _label(value: object) -> str:
+def label_text(value: object) -> str:
+    """Return a label, which files may hold as bytes."""
     return value.decode() if isinstance(value, bytes) else str(value)

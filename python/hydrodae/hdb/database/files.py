@@ -12,7 +12,7 @@ import numpy as np
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.convolution import RadiationKernel
-from hydrodae.hdb.database.extra import read_extra, write_extra
+from hydrodae.hdb.database.extra import label_text, read_extra, write_extra
 from hydrodae.hdb.database.layout import (
     BODY,
     BODY_NUMBERS,
@@ -58,16 +58,9 @@ def damaged(path: Path, fault: str) -> DatabaseError:
     return DatabaseError(fault).about("damaged", file=path)
 
 
-def is_hydro_file(path: Path) -> bool:
-    """Return whether a file is a `hydro.h5` (by its root attribute)."""
-    if not h5py.is_hdf5(path):
-        return False
-    return reading(path, damaged, DAMAGED, holds_format, search=True)
-
-
 def holds_format(f: h5py.File) -> bool:
     """Return whether an open file is a `hydro.h5`."""
-    return _text(f.attrs.get("format", "")) == FORMAT
+    return label_text(f.attrs.get("format", "")) == FORMAT
 
 
 def is_single(path: str | Path) -> bool:
@@ -75,6 +68,16 @@ def is_single(path: str | Path) -> bool:
     return reading(
         Path(path), damaged, DAMAGED, lambda f: bool(f["added_mass"].dtype == np.float32)
     )
+
+
+def partial_file(target: Path, kind: str) -> Path:
+    """Return the file that becomes `target` when it is complete; refuse one of another kind."""
+    outputs.spare(target, kind)
+    if not target.parent.is_dir():
+        raise DatabaseError(f"cannot write {target}: no folder {target.parent}").about(
+            "missing", "folder"
+        )
+    return target.with_name(target.name + ".part")
 
 
 def write(database: Tables, path: str | Path, *, kernel: bool = True, single: bool = False) -> None:
@@ -102,12 +105,7 @@ def write(database: Tables, path: str | Path, *, kernel: bool = True, single: bo
     for name in database.bodies:
         database.reference_point(name)
     target = Path(path)
-    outputs.spare(target, outputs.DATABASE)
-    if not target.parent.is_dir():
-        raise DatabaseError(f"cannot write {target}: no folder {target.parent}").about(
-            "missing", "folder"
-        )
-    partial = target.with_name(target.name + ".part")
+    partial = partial_file(target, outputs.DATABASE)
     with h5py.File(partial, "w") as f:
         _write_tables(f, database, kernel=kernel, single=single)
         _write_bodies(f, database)
@@ -219,17 +217,17 @@ def _read(f: h5py.File) -> dict[str, Any]:
     values = {name.rpartition("/")[2]: value for name, value in values.items()}
     stored = f["radiation_kernel"] if "radiation_kernel" in f else None
     fits = f["memory"] if "memory" in f else {}
-    texts: dict[str, Any] = {name: _text(f.attrs.get(name, "")) for name in ROOT_TEXT}
+    texts: dict[str, Any] = {name: label_text(f.attrs.get(name, "")) for name in ROOT_TEXT}
     water = {name: read_numbers(f, name, ()) for name in ("rho", "gravity", "water_depth")}
     return dict(
-        excitation_split=_text(f["excitation"].attrs.get("split", "")) != "total only",
+        excitation_split=label_text(f["excitation"].attrs.get("split", "")) != "total only",
         bodies=_read_bodies(f, bodies_of(values["coordinates"])),
-        added_mass_inf_origin=_text(f["added_mass_inf"].attrs.get("origin", "")),
+        added_mass_inf_origin=label_text(f["added_mass_inf"].attrs.get("origin", "")),
         kernel=None if stored is None else _read_kernel(stored),
         memory={name: _read_fit(name, fits[name]) for name in fits},
         extra=read_extra(f["extra"]) if "extra" in f else {},
         second_order=read_second_order(f["second_order"]) if "second_order" in f else {},
-        repairs=tuple(_text(f.attrs.get("repairs", "")).splitlines()),
+        repairs=tuple(label_text(f.attrs.get("repairs", "")).splitlines()),
         **texts,
         **water,
         **values,
@@ -292,10 +290,6 @@ def _report(group: h5py.Group) -> dict[str, Any]:
                 f"{count} number{'s' if count > 1 else ''}"
             ).about("shape", key, file=group.file.filename)
     return report
-
-
-def _text(value: Any) -> str:
-    return value.decode() if isinstance(value, bytes) else str(value)
 
 
 def _plain(value: Any) -> Any:

@@ -13,6 +13,7 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import coordinates as co
 from hydrodae.hdb.database.convolution import RadiationKernel
 from hydrodae.hdb.database.extra import SourceTable
+from hydrodae.hdb.database.layout import TABLES
 from hydrodae.hdb.database.second_order import SecondOrderTable
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import DOFS, Label, bodies_of, modes_of, read_labels
@@ -21,6 +22,9 @@ from hydrodae.support.arrays import Array, Complex
 
 if TYPE_CHECKING:
     from hydrodae.hdb.memory import ExponentialMemory
+
+#: Arrays of numbers by their names: those of the file without its folders.
+NUMBERS = {name.rpartition("/")[2]: e for name, e in TABLES.items() if not e.kind.is_text}
 
 
 @dataclass(frozen=True)
@@ -145,15 +149,13 @@ class Tables:
 
     def __post_init__(self) -> None:
         self.coordinates = tuple(self.coordinates)
-        for name in ("omega", "added_mass", "radiation_damping", "added_mass_inf",
-                     "added_mass_inf_std", "heading"):  # fmt: skip
-            setattr(self, name, np.asarray(getattr(self, name), dtype=float))
-        for name in ("froude_krylov", "diffraction"):
-            setattr(self, name, np.asarray(getattr(self, name), dtype=complex))
+        for name, entry in NUMBERS.items():
+            setattr(self, name, np.asarray(getattr(self, name), dtype=entry.kind.number()))
         self._check()
 
     def _check(self) -> None:
-        n, nw, nh = len(self.coordinates), self.omega.size, self.heading.size
+        n, nw = len(self.coordinates), self.omega.size
+        lengths = {"n": n, "w": nw, "h": self.heading.size}
         if len(set(self.coordinates)) != n or n == 0:
             raise DatabaseError(f"coordinates must be different labels: {self.coordinates}").about(
                 "label", "coordinates"
@@ -171,18 +173,8 @@ class Tables:
                     f"coordinates {', '.join(modes)} of {name!r}: expected a mode_stiffness of "
                     f"6 + {len(modes)} rows, or one of {', '.join(DOFS)}"
                 ).about("label", name)
-        shapes = {
-            "omega": (nw,),
-            "added_mass": (nw, n, n),
-            "radiation_damping": (nw, n, n),
-            "added_mass_inf": (n, n),
-            "added_mass_inf_std": (n, n),
-            "heading": (nh,),
-            "froude_krylov": (nw, nh, n),
-            "diffraction": (nw, nh, n),
-        }
-        for name, shape in shapes.items():
-            value = getattr(self, name)
+        for name, entry in NUMBERS.items():
+            value, shape = getattr(self, name), tuple(lengths[str(dim)] for dim in entry.dims)
             if value.shape != shape:
                 raise DatabaseError(f"{name} has shape {value.shape}, expected {shape}").about(
                     "shape", name
@@ -230,12 +222,17 @@ class Tables:
         DatabaseError
             Unknown body, or its hydrostatics or reference point are unknown.
         """
-        point, hs = self.reference_point(body), self.bodies[body].hydrostatics
+        point = self.reference_point(body)
+        return self.hydrostatics(body).stiffness(point, self.rho, self.gravity)
+
+    def hydrostatics(self, body: str) -> Hydrostatics:
+        """Hydrostatics of a body; an error where they are unknown."""
+        hs = self.bodies[body].hydrostatics
         if hs is None:
             raise DatabaseError(f"the hydrostatics of body {body!r} are not in the database").about(
                 "missing", body
             )
-        return hs.stiffness(point, self.rho, self.gravity)
+        return hs
 
     def reference_point(self, body: str) -> Array:
         """Point (3,) about which the moments of a body are, world [m].

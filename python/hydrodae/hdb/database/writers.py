@@ -15,6 +15,7 @@ import xarray as xr
 
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.database.database import HydroDatabase
+from hydrodae.hdb.database.files import partial_file
 from hydrodae.hdb.database.kernels import excitation_kernel, memory_length
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import six_of_each
@@ -49,9 +50,9 @@ def write_bemio(database: HydroDatabase, path: str | Path) -> None:
     gave the total excitation only, scattering and froude-krylov hold NaN, as BEMIO does.
     """
     db = database.reordered(_six_of_each(database))
-    statics = {name: _hydrostatics(db, name) for name in db.bodies}
+    statics = {name: db.hydrostatics(name) for name in db.bodies}
     target = Path(path)
-    partial = _partial(target, outputs.BEMIO)
+    partial = partial_file(target, outputs.BEMIO)
     end = 1.25 * memory_length(db)
     count = max(KERNEL_TIMES, int(np.ceil(end * db.omega[-1] / RESOLUTION)) + 1)
     time = np.linspace(0.0, end, count)
@@ -195,7 +196,7 @@ def write_capytaine(database: HydroDatabase, path: str | Path) -> None:
         "history": f"written by {db.generator}; source {db.source}, sha256 {db.source_sha256}",
         "capytaine_version": "written by hydrodae in the layout of 3.0",
     }
-    partial = _partial(target, outputs.NETCDF)
+    partial = partial_file(target, outputs.NETCDF)
     xr.Dataset(data, coords=coords, attrs=attrs).to_netcdf(partial, engine="netcdf4")
     os.replace(partial, target)
 
@@ -207,7 +208,7 @@ def _capytaine_hydrostatics(db: HydroDatabase, points: Array) -> dict[str, Any]:
         mine = [(i, label.dof) for i, label in enumerate(db.labels) if label.body == name]
         rows, six = [i for i, _ in mine], [dof for _, dof in mine]
         stiffness[np.ix_(rows, rows)] = db.hydrostatic_stiffness(name)[np.ix_(six, six)]
-    statics = [_hydrostatics(db, name) for name in db.bodies]
+    statics = [db.hydrostatics(name) for name in db.bodies]
     vector = ("body", "space_coordinate")
     return {
         "hydrostatic_stiffness": (("influenced_dof", "radiating_dof"), stiffness),
@@ -226,24 +227,6 @@ def _six_of_each(db: HydroDatabase) -> tuple[str, ...]:
             f"(write a Capytaine netCDF instead)"
         ).about("missing", missing[0])
     return wanted
-
-
-def _hydrostatics(db: HydroDatabase, name: str) -> Hydrostatics:
-    hs = db.bodies[name].hydrostatics
-    if hs is None:
-        raise DatabaseError(f"the hydrostatics of body {name!r} are not in the database").about(
-            "missing", name
-        )
-    return hs
-
-
-def _partial(target: Path, kind: str) -> Path:
-    outputs.spare(target, kind)
-    if not target.parent.is_dir():
-        raise DatabaseError(f"cannot write {target}: no folder {target.parent}").about(
-            "missing", "folder"
-        )
-    return target.with_name(target.name + ".part")
 
 
 def _put(group: h5py.Group, name: str, value: Any, description: str, units: str) -> None:

@@ -1,11 +1,10 @@
-"""Exponential radiation memory: what a fit is, what it answers, and how it is stored."""
+"""Exponential radiation memory: what a fit is, and what it answers."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from typing import Any
 
-import h5py
 import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
@@ -175,58 +174,3 @@ class ExponentialMemory:
         rows = [self.outputs.index(label) for label in self.inputs]
         block = self.transfer(omega)[:, rows] / scale / scale[:, None]
         return np.asarray(np.linalg.eigvalsh(0.5 * (block + block.conj().transpose(0, 2, 1))))
-
-    def write(self, group: h5py.Group) -> None:
-        """Write into `group`/<name>; an existing fit of that name is replaced."""
-        if self.name in group:
-            del group[self.name]
-        target = group.create_group(self.name)
-        target["inputs"] = np.array(self.inputs, dtype="S32")
-        target["outputs"] = np.array(self.outputs, dtype="S32")
-        target["poles"] = self.poles.astype(np.complex128)
-        target["input_matrix"] = self.input_matrix.astype(np.complex128)
-        target["output_matrix"] = self.output_matrix.astype(np.complex128)
-        target["added_mass_inf"] = self.added_mass_inf.astype(np.float64)
-        for key, value in (self.report | {"n_states": self.n_states}).items():
-            if isinstance(value, tuple) and all(isinstance(item, str) for item in value):
-                target.attrs[key] = np.array(value, dtype=h5py.string_dtype())
-            else:
-                target.attrs[key] = np.array(value) if isinstance(value, tuple) else value
-
-    @classmethod
-    def read(cls, group: h5py.Group) -> ExponentialMemory:
-        """Read the fit stored in `group` (as /memory/<name>).
-
-        Raises
-        ------
-        DatabaseError
-            If a data set is missing or the shapes disagree.
-        """
-        name = str(group.name).rsplit("/", 1)[-1]
-        keys = ("inputs", "outputs", "poles", "input_matrix", "output_matrix", "added_mass_inf")
-        if missing := [key for key in keys if key not in group]:
-            raise DatabaseError(f"memory fit '{name}': data sets {missing} are missing").about(
-                "missing", missing[0]
-            )
-        inputs, outputs, poles, input_matrix, output_matrix, added_mass = (
-            group[key][()] for key in keys
-        )
-        return cls(
-            name=name,
-            inputs=tuple(label.decode("ascii") for label in inputs),
-            outputs=tuple(label.decode("ascii") for label in outputs),
-            poles=poles.astype(np.complex128),
-            input_matrix=input_matrix.astype(np.complex128),
-            output_matrix=output_matrix.astype(np.complex128),
-            added_mass_inf=added_mass.astype(np.float64),
-            report={key: _plain(value) for key, value in group.attrs.items()},
-        )
-
-
-def _plain(value: Any) -> Any:
-    """Turn an HDF5 attribute into a plain Python value."""
-    if isinstance(value, np.ndarray):
-        return tuple(item.decode() if isinstance(item, bytes) else item for item in value.tolist())
-    if isinstance(value, np.generic):
-        return value.item()
-    return str(value)

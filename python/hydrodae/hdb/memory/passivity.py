@@ -127,24 +127,32 @@ def _between(omega: Array, values: Array) -> Array:
     return np.linspace(omega[inner - 1], omega[inner + 1], BETWEEN, axis=1).ravel()
 
 
-def constraint_rows(modes: Modes, minima: Minima, problem: Problem) -> tuple[Array, Array]:
-    """Return d(v^T Re H v)/d(parameters), (k, n_parameters), and v^T Re H v, (k,)."""
-    value, slope = real_parts(modes, minima.omega)
-    beta = minima.vectors @ modes.vectors.T
-    square = beta**2
+def derivatives(modes: Modes, omega: Array, left: Array, right: Array) -> tuple[Array, Array]:
+    """Return d(u^T Re H v)/d(parameters but A_inf), and u^T Re H v (k,), at omega (k,).
+
+    u and v are rows of `left` and `right`, (k, n).
+    """
+    value, slope = real_parts(modes, omega)
     pair = ~modes.real
-    by_re = 2.0 * (beta.real * value[0] + beta.imag * value[1])
-    by_im = 2.0 * pair * (-beta.imag * value[0] + beta.real * value[1])
-    by_log = modes.poles.real * (square.real * slope[0] + square.imag * slope[1])
-    by_omega = pair * (-square.imag * slope[0] + square.real * slope[1])
-    count, rest = minima.omega.size, np.zeros((minima.omega.size, problem.rows.size))
-    vectors = minima.vectors[:, :, None]
-    rows = [
-        (by_re[:, None] * vectors).reshape(count, modes.vectors.size),
-        (by_im[:, None] * vectors).reshape(count, modes.vectors.size),
+    on_left, on_right = left @ modes.vectors.T, right @ modes.vectors.T
+
+    def by_vector(beta: Array) -> tuple[Array, Array]:
+        return (
+            beta.real * value[0] + beta.imag * value[1],
+            pair * (-beta.imag * value[0] + beta.real * value[1]),
+        )
+
+    shape, product = (omega.size, modes.vectors.size), on_left * on_right
+    columns = [
+        (a[:, None] * left[:, :, None] + b[:, None] * right[:, :, None]).reshape(shape)
+        for a, b in zip(by_vector(on_right), by_vector(on_left), strict=True)
     ]
-    quadratic = (square.real * value[0] + square.imag * value[1]).sum(axis=1)
-    return np.concatenate([*rows, by_log, by_omega, rest], axis=1), quadratic
+    columns += [
+        modes.poles.real * (product.real * slope[0] + product.imag * slope[1]),
+        pair * (-product.imag * slope[0] + product.real * slope[1]),
+    ]
+    form = (product.real * value[0] + product.imag * value[1]).sum(axis=1)
+    return np.concatenate(columns, axis=1), form
 
 
 def least_distance(matrix: Array, gradient: Array, rows: Array, bound: Array) -> Array | None:
@@ -237,7 +245,8 @@ def _constrained_step(
     """
     (now, damping), highest = state, float(problem.samples.omega.max())
     matrix, gradient = normal_equations(modes, problem)
-    rows, quadratic = constraint_rows(modes, minima, problem)
+    rows, quadratic = derivatives(modes, minima.omega, minima.vectors, minima.vectors)
+    rows = np.pad(rows, ((0, 0), (0, problem.rows.size)))
     lack = max(0.0, level - minima.lowest / minima.largest)
     for _ in range(6):
         step = least_distance(

@@ -28,10 +28,14 @@ from hydrodae.hdb.memory.modes import (
     error,
     moved,
     normal_equations,
-    real_parts,
     resistance,
 )
-from hydrodae.hdb.memory.passivity import eigenvalues, eigenvectors, local_minima
+from hydrodae.hdb.memory.passivity import (
+    derivatives,
+    eigenvalues,
+    eigenvectors,
+    local_minima,
+)
 from hydrodae.hdb.memory.vector_fitting import Array
 
 FLOOR = -4e-5
@@ -171,7 +175,7 @@ def _rows(modes: Modes, low: _Low, top: float) -> Iterator[tuple[Array, Array]]:
     values = np.where(i == j, low.values[i], 0.0)
     for pick in np.array_split(np.arange(i.size), i.size // 2000 + 1):
         left, right = low.vectors[i[pick]], low.vectors[j[pick]]
-        rows = _derivatives(modes, low.omega[i[pick]], left, right) / top
+        rows = derivatives(modes, low.omega[i[pick]], left, right)[0] / top
         rows *= np.where(i[pick] == j[pick], 1.0, np.sqrt(2.0))[:, None]
         yield rows, values[pick]
 
@@ -191,29 +195,3 @@ def _pairs(omega: Array) -> tuple[np.ndarray, np.ndarray]:
 def _upper(size: int) -> tuple[np.ndarray, np.ndarray]:
     """Return the indices i <= j of a matrix of this size."""
     return np.triu_indices(size)
-
-
-def _derivatives(modes: Modes, omega: Array, left: Array, right: Array) -> Array:
-    """Return d(u^T Re H v)/d(parameters but A_inf), of u, v (k, n) at omega (k,)."""
-    value, slope = real_parts(modes, omega)
-    pair = ~modes.real
-    on_left, on_right = left @ modes.vectors.T, right @ modes.vectors.T
-
-    def by_vector(beta: np.ndarray) -> tuple[Array, Array]:
-        return (
-            beta.real * value[0] + beta.imag * value[1],
-            pair * (-beta.imag * value[0] + beta.real * value[1]),
-        )
-
-    count, product = omega.size, on_left * on_right
-    columns = [
-        (a[:, None] * left[:, :, None] + b[:, None] * right[:, :, None]).reshape(
-            count, left.shape[1] * modes.poles.size
-        )
-        for a, b in zip(by_vector(on_right), by_vector(on_left), strict=True)
-    ]
-    columns += [
-        modes.poles.real * (product.real * slope[0] + product.imag * slope[1]),
-        pair * (-product.imag * slope[0] + product.real * slope[1]),
-    ]
-    return np.concatenate(columns, axis=1)

@@ -139,21 +139,13 @@ def cylinders(
     w = float(omega[middle])
     finer = _solve(points, body, water, w, orders + 2, 2 * count)
     error = _distance(loads[middle], _scaled(finer, water, w))
-    report = CheckReport(
-        [
-            Finding(
-                "info",
-                "truncation",
-                f"twice the modes and two more orders change A, B and F by at most {error:.1e} of "
-                "the largest entry of their kind",
-                error,
-                w,
-            ),
-            *([] if database is asked else [closing_finding(asked.heading)]),
-            *check(database).findings,
-        ]
+    text = (
+        f"twice the modes and two more orders change A, B and F by at most {error:.1e} of "
+        "the largest entry of their kind"
     )
-    return database, report
+    found = [Finding("info", "truncation", text, error, w)]
+    found += [] if database is asked else [closing_finding(asked.heading)]
+    return database, CheckReport([*found, *check(database).findings])
 
 
 def _points(places: Mapping[str, ArrayLike], body: Cylinder, water: Water) -> Array:

@@ -25,7 +25,7 @@ from hydrodae.hdb.readers.aqwa_common import (
 from hydrodae.hdb.readers.aqwa_listing import read_listing
 from hydrodae.hdb.readers.formats import Format
 from hydrodae.hdb.readers.source import Scales, SourceData
-from hydrodae.hdb.readers.text import number, read_lines
+from hydrodae.hdb.readers.text import only, read_lines, row_of
 from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.support.arrays import Array
 from hydrodae.support.naming import names_file
@@ -45,12 +45,8 @@ def aqwa_file(path: Path) -> Path | None:
         return path if path.suffix.lower() in (".ah1", ".lis") else None
     for suffix in (".ah1", ".lis"):
         found = [p for p in sorted(path.iterdir()) if p.suffix.lower() == suffix]
-        if len(found) > 1:
-            raise DatabaseError(f"which one is meant? {', '.join(p.name for p in found)}").about(
-                "ambiguous"
-            )
         if found:
-            return found[0]
+            return only(found)
     return None
 
 
@@ -88,16 +84,9 @@ class _Ah1:
                 self.sections[word] = (start, numbers)
                 word, start, numbers = line.split()[0], count, []
                 continue
-            numbers += self._numbers(count, line)
+            numbers += row_of(line.split(), count)
         self.sections[word] = (start, numbers)
         self._header()
-
-    def _numbers(self, count: int, line: str) -> list[float]:
-        try:
-            return [number(word) for word in line.split()]
-        except ValueError:
-            wrong = next(word for word in line.split() if not _is_number(word))
-            raise DatabaseError(f"{wrong!r} is not a number").about("format", line=count) from None
 
     def _header(self) -> None:
         """Structures, headings [deg] and frequencies [rad/s]; equal for all structures."""
@@ -207,14 +196,6 @@ class _Ah1:
             )
             data.hydrostatics[name] = (statics, centers[i])
         return data
-
-
-def _is_number(word: str) -> bool:
-    try:
-        number(word)
-    except ValueError:
-        return False
-    return True
 
 
 FORMAT = Format(".AH1 or .LIS of AQWA", aqwa_file, read_aqwa)

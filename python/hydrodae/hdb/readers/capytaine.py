@@ -16,12 +16,11 @@ from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.coordinates import unique_names
-from hydrodae.hdb.database.extra import kept_tables
+from hydrodae.hdb.database.extra import kept_tables, label_text, shallow_findings
 from hydrodae.hdb.database.files import damaged
 from hydrodae.hdb.database.findings import Finding
-from hydrodae.hdb.database.shallow import shallow_findings
 from hydrodae.hdb.labels import DOFS
-from hydrodae.hdb.readers.capytaine_statics import attach_bodies, text
+from hydrodae.hdb.readers.capytaine_statics import attach_bodies
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.relations.dispersion import frequency
 from hydrodae.support.arrays import Array, Complex
@@ -93,10 +92,7 @@ def _read(path: Path, ds: xr.Dataset) -> SourceData:
         added_mass=a[order],
         radiation_damping=b[order],
         heading=heading,
-        froude_krylov=forces["froude_krylov"],
-        diffraction=forces["diffraction"],
-        excitation=forces["excitation"],
-        reference_points={},
+        **forces,
         rho=_number(ds, "rho"),
         gravity=_number(ds, "g"),
         water_depth=_depth(ds),
@@ -203,8 +199,8 @@ def _coordinates(
     path: Path, ds: xr.Dataset, findings: list[Finding]
 ) -> tuple[list[str], tuple[str, ...]]:
     """Names of the degrees of freedom in the file, and their labels here, in the same order."""
-    influenced = [text(d) for d in np.atleast_1d(ds["influenced_dof"].values)]
-    radiating = [text(d) for d in np.atleast_1d(ds["radiating_dof"].values)]
+    influenced = [label_text(d) for d in np.atleast_1d(ds["influenced_dof"].values)]
+    radiating = [label_text(d) for d in np.atleast_1d(ds["radiating_dof"].values)]
     ds["influenced_dof"], ds["radiating_dof"] = influenced, radiating
     both = [d for d in influenced if d in radiating]
     rigid = [d for d in both if d.rpartition("__")[2].lower() in DOFS]
@@ -212,11 +208,8 @@ def _coordinates(
     if not rigid:
         raise DatabaseError(f"none of {both} is one of {', '.join(DOFS)}").about("label")
     if lost:
-        findings.append(
-            Finding(
-                "warning", "coordinates", f"left out (not rigid, or motion or force only): {lost}"
-            )
-        )
+        said = f"left out (not rigid, or motion or force only): {lost}"
+        findings.append(Finding("warning", "coordinates", said))
     prefixes = list(dict.fromkeys(d.rpartition("__")[0] for d in rigid))
     names = unique_names([p or _single_body(path, ds) for p in prefixes])
     labels = []
@@ -229,20 +222,25 @@ def _coordinates(
 def _single_body(path: Path, ds: xr.Dataset) -> str:
     for key in ("body", "body_name"):
         if key in ds.coords and ds[key].size == 1:
-            return text(ds[key].values.item())
+            return label_text(ds[key].values.item())
     return path.stem
 
 
 def _matrix(ds: xr.Dataset, name: str, dofs: list[str]) -> Array:
     """Return a variable as (nw, force, motion)."""
     variable = ds[name].sel(influenced_dof=dofs, radiating_dof=dofs)
+    dims = "omega", "influenced_dof", "radiating_dof"
+    return np.asarray(_ordered(variable, name, dims), dtype=float)
+
+
+def _ordered(variable: xr.DataArray, name: str, dims: tuple[str, ...]) -> NDArray[Any]:
+    """Return the values of a variable along these dimensions; refuse others."""
     try:
-        ordered = variable.transpose("omega", "influenced_dof", "radiating_dof")
+        return np.asarray(variable.transpose(*dims).values)
     except ValueError as error:
         raise DatabaseError(f"dimensions of {name!r}: {variable.dims}").about(
             "shape", name
         ) from error
-    return np.asarray(ordered.values, dtype=float)
 
 
 def _force(ds: xr.Dataset, name: str, dofs: list[str], order: NDArray[np.intp]) -> Complex | None:
@@ -251,7 +249,7 @@ def _force(ds: xr.Dataset, name: str, dofs: list[str], order: NDArray[np.intp]) 
         return None
     variable = ds[name].sel(influenced_dof=dofs)
     if "complex" in variable.dims:
-        labels = [text(c) for c in variable["complex"].values]
+        labels = [label_text(c) for c in variable["complex"].values]
         if sorted(labels) != ["im", "re"]:
             raise DatabaseError(f"dimension 'complex' of {name!r} is labelled {labels}").about(
                 "format", name
@@ -260,13 +258,8 @@ def _force(ds: xr.Dataset, name: str, dofs: list[str], order: NDArray[np.intp]) 
         variable = variable.sel(complex="re") + 1j * variable.sel(complex="im")
     if "wave_direction" not in variable.dims:
         variable = variable.expand_dims("wave_direction")
-    try:
-        ordered = variable.transpose("omega", "wave_direction", "influenced_dof")
-    except ValueError as error:
-        raise DatabaseError(f"dimensions of {name!r}: {variable.dims}").about(
-            "shape", name
-        ) from error
-    return np.asarray(np.conj(ordered.values[order]), dtype=complex)
+    values = _ordered(variable, name, ("omega", "wave_direction", "influenced_dof"))
+    return np.asarray(np.conj(values[order]), dtype=complex)
 
 
 def _number(ds: xr.Dataset, name: str) -> float:

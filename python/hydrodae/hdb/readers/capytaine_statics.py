@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from hydrodae.hdb.database.extra import label_text
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import DOFS, bodies_of
@@ -25,10 +26,8 @@ def attach_bodies(data: SourceData, ds: xr.Dataset, raw: list[str], path: Path) 
         beside, findings = nh.read_all(path.parent, len(names), data.rho, data.gravity)
         data.findings += findings
     for i, name in enumerate(names):
-        first = next(
-            d for d, c in zip(raw, data.coordinates, strict=True) if c.startswith(name + ".")
-        )
-        prefix = first.rpartition("__")[0]
+        own = zip(raw, data.labels, strict=True)
+        prefix = next(dof for dof, label in own if label.body == name).rpartition("__")[0]
         point = _vector(ds, "rotation_center", prefix, i)
         data.reference_points[name] = point
         hs = _hydrostatics(data, ds, raw, prefix, i, point)
@@ -38,11 +37,8 @@ def attach_bodies(data: SourceData, ds: xr.Dataset, raw: list[str], path: Path) 
         elif near is not None:
             data.hydrostatics[name] = (near.hydrostatics, near.center_of_gravity)
             data.files += near.files
-            data.findings.append(
-                Finding(
-                    "info", "hydrostatics", f"{name}: taken from {near.files[0].name} beside it"
-                )
-            )
+            said = f"{name}: taken from {near.files[0].name} beside it"
+            data.findings.append(Finding("info", "hydrostatics", said))
             if point is None:
                 assume_by_statics(data, name, near)
         else:
@@ -102,7 +98,7 @@ def _mass(ds: xr.Dataset, labels: dict[int, str], displaced: float) -> float | N
 def _pick(variable: xr.DataArray, prefix: str, i: int, *, vector: bool) -> Any:
     """Entry of a body in a variable; all dimensions but the last one of vectors are over bodies."""
     for dim in variable.dims[:-1] if vector else variable.dims:
-        labels = [text(v) for v in variable[dim].values] if dim in variable.coords else []
+        labels = [label_text(v) for v in variable[dim].values] if dim in variable.coords else []
         variable = variable.isel({dim: labels.index(prefix) if prefix in labels else i})
     return variable.values
 
@@ -112,8 +108,3 @@ def _vector(ds: xr.Dataset, name: str, prefix: str, i: int) -> Array | None:
         return None
     value = np.asarray(_pick(ds[name], prefix, i, vector=True), dtype=float)
     return value if value.shape == (3,) and np.all(np.isfinite(value)) else None
-
-
-def text(value: Any) -> str:
-    """Return a label, which old files hold as bytes."""
-    return value.decode() if isinstance(value, bytes) else str(value)

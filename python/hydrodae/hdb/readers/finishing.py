@@ -11,6 +11,7 @@ from hydrodae.hdb.database.tables import Body
 from hydrodae.hdb.labels import bodies_of
 from hydrodae.hdb.readers.source import TABLES, SourceData, sha256
 from hydrodae.hdb.relations import infinity
+from hydrodae.hdb.relations.entries import asymmetry, entry_scale, worst
 from hydrodae.support.arrays import Array, Complex
 from hydrodae.support.version import version
 
@@ -69,14 +70,11 @@ def finish(data: SourceData) -> HydroDatabase:
 def _body(data: SourceData, name: str) -> Body:
     point, found = data.reference_points.get(name), data.hydrostatics.get(name)
     if point is None:
-        data.findings.append(
-            Finding(
-                "warning",
-                "reference point",
-                f"{name}: the source does not say about which point its moments are; state it "
-                f"(source_points, --origin {name}=x,y,z)",
-            )
+        text = (
+            f"{name}: the source does not say about which point its moments are; state it "
+            f"(source_points, --origin {name}=x,y,z)"
         )
+        data.findings.append(Finding("warning", "reference point", text))
     statics = None if found is None or point is None else found[0].moved(found[1], point)
     return Body(name, point, statics, data.meshes.get(name), data.mode_stiffness.get(name))
 
@@ -96,42 +94,23 @@ def _drop_rows_with_nan(data: SourceData) -> None:
             f"{bad.sum()} of {bad.size} frequencies hold NaN (w = {where} rad/s): the "
             f"computation behind it failed; repeat it"
         ).about("not_finite", file=data.name)
-    data.findings.append(
-        Finding(
-            "warning",
-            "NaN",
-            f"{bad.sum()} of {bad.size} frequencies hold NaN and were dropped (w = {where} rad/s)",
-            value=float(share),
-            omega=float(data.omega[bad][0]),
-        )
-    )
+    text = f"{bad.sum()} of {bad.size} frequencies hold NaN and were dropped (w = {where} rad/s)"
+    first = float(data.omega[bad][0])
+    data.findings.append(Finding("warning", "NaN", text, float(share), first))
     data.keep_frequencies(~bad)
 
 
 def asymmetry_finding(data: SourceData) -> None:
     """Report max |A - A^T| and |B - B^T| over the largest entry, with lengths scaled out."""
-    n = len(data.coordinates)
     for name in ("added_mass", "radiation_damping"):
-        table = getattr(data, name)
-        size = np.sqrt(np.abs(np.einsum("wii->wi", table)).max(axis=0))
-        scale = np.outer(size, size)
-        scale[scale <= 1e-6 * scale.max()] = np.inf
-        relative = np.abs(table - table.transpose(0, 2, 1)) / scale
-        w, i, j = np.unravel_index(relative.argmax(), (data.omega.size, n, n))
-        value = float(relative[w, i, j])
+        value, (w, i, j) = worst(asymmetry(getattr(data, name)))
         level = "error" if value > GARBLED else "warning" if value > 0.02 else "info"
-        pair = f"{data.coordinates[i]} and {data.coordinates[j]}" if value > 0.02 else ""
-        data.findings.append(
-            Finding(
-                level,
-                f"symmetry of {name}",
-                f"largest asymmetry {value:.2g} of the diagonal"
-                + (f", between {pair}" if pair else "")
-                + "; the mean of both halves is used",
-                value=value,
-                omega=float(data.omega[w]),
-            )
-        )
+        text = f"largest asymmetry {value:.2g} of the diagonal"
+        if value > 0.02:
+            text += f", between {data.coordinates[i]} and {data.coordinates[j]}"
+        text += "; the mean of both halves is used"
+        omega = float(data.omega[w])
+        data.findings.append(Finding(level, f"symmetry of {name}", text, value, omega))
 
 
 def exchange_finding(data: SourceData) -> None:
@@ -180,38 +159,29 @@ def uncoupled_finding(data: SourceData) -> None:
 
 def _split_excitation(data: SourceData) -> tuple[Complex, Complex, bool]:
     fk, d, total = data.froude_krylov, data.diffraction, data.excitation
+
+    def say(text: str, severity: str = "info") -> None:
+        data.findings.append(Finding(severity, "excitation", text))
+
     if fk is not None and d is not None:
         if total is not None:
             data.findings.append(_sum_finding(data, fk, d, total))
         return fk, d, True
     if total is not None and d is not None:
-        data.findings.append(
-            Finding("info", "excitation", "Froude-Krylov taken as excitation - diffraction")
-        )
+        say("Froude-Krylov taken as excitation - diffraction")
         return total - d, d, True
     if total is not None and fk is not None:
-        data.findings.append(
-            Finding("info", "excitation", "diffraction taken as excitation - Froude-Krylov")
-        )
+        say("diffraction taken as excitation - Froude-Krylov")
         return fk, total - fk, True
-    shape = (data.omega.size, data.heading.size, len(data.coordinates))
     if total is not None:
-        data.findings.append(
-            Finding(
-                "info",
-                "excitation",
-                "the source holds the total only; Froude-Krylov and diffraction are not separated",
-            )
-        )
-        return np.zeros(shape, dtype=complex), total, False
+        say("the source holds the total only; Froude-Krylov and diffraction are not separated")
+        return np.zeros_like(total), total, False
     if d is not None or fk is not None:
         half = "diffraction" if d is not None else "Froude-Krylov"
         raise DatabaseError(
             f"only the {half} force is there; the excitation needs the other half too"
         ).about("missing", "excitation", file=data.name)
-    data.findings.append(
-        Finding("warning", "excitation", "the source holds no excitation: no waves can be used")
-    )
+    say("the source holds no excitation: no waves can be used", "warning")
     data.heading = np.zeros(0)
     empty = np.zeros((data.omega.size, 0, len(data.coordinates)), dtype=complex)
     return empty, empty.copy(), True
@@ -220,16 +190,10 @@ def _split_excitation(data: SourceData) -> tuple[Complex, Complex, bool]:
 def _sum_finding(data: SourceData, fk: Complex, d: Complex, total: Complex) -> Finding:
     scale = np.abs(total).max(axis=(0, 1))
     scale[scale <= 1e-6 * scale.max()] = np.inf
-    error = np.abs(fk + d - total) / scale
-    w, h, i = np.unravel_index(error.argmax(), error.shape)
-    value = float(error[w, h, i])
-    return Finding(
-        "error" if value > 0.01 else "info",
-        "excitation = FK + diffraction",
-        f"largest difference {value:.2g} of the largest force, at {data.coordinates[i]}",
-        value=value,
-        omega=float(data.omega[w]),
-    )
+    value, (w, _, i) = worst(np.abs(fk + d - total) / scale)
+    level = "error" if value > 0.01 else "info"
+    text = f"largest difference {value:.2g} of the largest force, at {data.coordinates[i]}"
+    return Finding(level, "excitation = FK + diffraction", text, value, float(data.omega[w]))
 
 
 def _coupling_doubt(value: Array, std: Array) -> Array:
@@ -238,10 +202,7 @@ def _coupling_doubt(value: Array, std: Array) -> Array:
     What is wrong with the motion of one coordinate is wrong with its coupling too:
     u_ij >= |r_ij| sqrt(u_ii u_jj) with the correlation r_ij = A_ij / sqrt(A_ii A_jj), at most 1.
     """
-    size = np.sqrt(np.abs(np.diag(value)))
-    scale = np.outer(size, size)
-    scale[scale <= 0.0] = np.inf
-    correlation = np.minimum(np.abs(value) / scale, 1.0)
+    correlation = np.minimum(np.abs(value) / entry_scale(value, 0.0), 1.0)
     own = np.sqrt(np.diag(std))
     return np.asarray(np.maximum(std, correlation * np.outer(own, own)))
 
@@ -253,11 +214,9 @@ def _mesh_doubt(a: Array) -> Array:
     errors of a mesh too coarse for a gap or a plate do not break Ogilvie's relation.
     """
     size = np.sqrt(np.abs(np.einsum("wii->wi", a)).max(axis=0))
-    scale = np.outer(size, size)
-    scale[scale <= 1e-6 * scale.max()] = np.inf
-    half = 0.5 * np.median(np.abs(a - a.transpose(0, 2, 1)), axis=0) / scale
-    worst = np.sqrt(half.max(axis=1)) * size
-    return np.asarray(np.outer(worst, worst))
+    half = 0.5 * np.median(np.abs(a - a.transpose(0, 2, 1)), axis=0) / entry_scale(a)
+    own = np.sqrt(half.max(axis=1)) * size
+    return np.asarray(np.outer(own, own))
 
 
 def _added_mass_inf(data: SourceData, a: Array, b: Array) -> tuple[Array, Array, str]:
@@ -267,14 +226,10 @@ def _added_mass_inf(data: SourceData, a: Array, b: Array) -> tuple[Array, Array,
     if data.added_mass_inf is None:
         return value, std, "Ogilvie's relation at low frequencies"
     given = 0.5 * (data.added_mass_inf + data.added_mass_inf.T)
-    size = np.sqrt(np.abs(np.diag(given)))
-    scale = np.outer(size, size)
-    scale[scale <= 1e-6 * scale.max()] = np.inf
-    error = np.abs(given - value) / scale
-    i, j = np.unravel_index(error.argmax(), error.shape)
-    level = "warning" if error.max() > 0.05 else "info"
+    error, (i, j) = worst(np.abs(given - value) / entry_scale(given))
+    level = "warning" if error > 0.05 else "info"
     text = (
-        f"differs from Ogilvie's relation by up to {error.max():.2g} "
+        f"differs from Ogilvie's relation by up to {error:.2g} "
         f"({data.coordinates[i]}, {data.coordinates[j]}); the source's value is used"
     )
     going = [k for k, c in enumerate(data.coordinates) if c.endswith(("surge", "sway", "heave"))]
@@ -284,7 +239,5 @@ def _added_mass_inf(data: SourceData, a: Array, b: Array) -> tuple[Array, Array,
     if going and float(np.median(own[going])) > (ENDS_EARLY if rest > 0.5 else FOREIGN):
         level = "error"
         text += "; so far off are A and B of different columns, units or runs"
-    data.findings.append(
-        Finding(level, "added_mass_inf of the source", text, value=float(error.max()))
-    )
+    data.findings.append(Finding(level, "added_mass_inf of the source", text, error))
     return given, np.abs(given - value), "source"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+from collections.abc import Callable
 from pathlib import Path
 
 import h5py
@@ -9,11 +11,14 @@ import h5py
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import files
 from hydrodae.hdb.database.coordinates import nearest
-from hydrodae.hdb.readers.below import runs_below
 from hydrodae.hdb.readers.bemio import is_bemio_file
 from hydrodae.hdb.readers.foreign import foreign, foreign_in
 from hydrodae.hdb.readers.formats import expected_files, formats
+from hydrodae.hdb.readers.text import files_named, only
 from hydrodae.support.damaged import reading
+
+#: How far below the folder that was named, and in how many folders, runs are looked for.
+DEEPEST, MOST = 5, 2000
 
 
 def resolve(source: str | Path) -> tuple[Path, str]:
@@ -56,14 +61,8 @@ def _folder(path: Path) -> tuple[Path, str]:
         found = format.find(path)
         if found is not None:
             return found, name
-    inside = _tables(path)
-    if len(inside) == 1:
-        return resolve(inside[0])
-    if inside:
-        names = ", ".join(p.name for p in inside[:6])
-        raise DatabaseError(f"which one is meant? {names}: name the file").about(
-            "ambiguous", file=path
-        )
+    if (table := only(_tables(path))) is not None:
+        return resolve(table)
     below = runs_below(path, _holds_one)
     if len(below) == 1:
         return _folder(below[0])
@@ -73,12 +72,8 @@ def _folder(path: Path) -> tuple[Path, str]:
         raise DatabaseError(f"databases are in the folders {names}{more}: name one of them").about(
             "ambiguous", file=path
         )
-    runs = [p.name for p in sorted(path.iterdir()) if p.suffix == ".1"]
-    if len(runs) > 1:
-        raise DatabaseError(f"which one is meant? {', '.join(runs[:6])}: name the file").about(
-            "ambiguous", file=path
-        )
-    lost = next(iter(_named(path, "RadiationCoefficients.tec")), None)
+    only([p for p in sorted(path.iterdir()) if p.suffix == ".1"])
+    lost = next(iter(files_named(path, "RadiationCoefficients.tec")), None)
     if lost is not None:
         raise DatabaseError(
             f"{lost.relative_to(path)} without the Nemoh.cal of its run, which holds the "
@@ -98,27 +93,13 @@ def _nemoh(path: Path) -> bool:
 
     A Nemoh.cal in a folder beside the results belongs to it; one above its own results does not.
     """
-    cals = _named(path, "Nemoh.cal")
+    cals = files_named(path, "Nemoh.cal")
     if len(cals) != 1:
         return False
     if cals[0].parent == path:
-        return bool(_named(path, "RadiationCoefficients.tec")) or not _tables(path)
-    results = _named(path, "RadiationCoefficients.tec")
+        return bool(files_named(path, "RadiationCoefficients.tec")) or not _tables(path)
+    results = files_named(path, "RadiationCoefficients.tec")
     return len(results) == 1
-
-
-def _named(path: Path, name: str) -> list[Path]:
-    """Files of that name, whatever its case, in a folder; where there is none, one folder below."""
-    for folders in ([path], [p for p in sorted(path.iterdir()) if p.is_dir()]):
-        found = [
-            p
-            for folder in folders
-            for p in sorted(folder.iterdir())
-            if p.is_file() and p.name.lower() == name.lower()
-        ]
-        if found:
-            return found
-    return []
 
 
 def _holds_one(path: Path) -> bool:
@@ -129,6 +110,64 @@ def _holds_one(path: Path) -> bool:
         return any(format.find(path) is not None for format in formats().values())
     except DatabaseError:  # several of a kind
         return True
+
+
+def runs_below(root: Path, holds_one: Callable[[Path], bool]) -> list[Path]:
+    """Return the folders below `root` that hold a run, copies of others left out.
+
+    Parameters
+    ----------
+    root : Path
+    holds_one : function of a folder
+        Whether it holds a run by itself; folders within such a one are not looked at.
+
+    Returns
+    -------
+    list of Path
+        In alphabetical order. Of folders whose files of results are byte for byte among those of
+        another one, that other one only.
+    """
+    found: list[Path] = []
+    waiting = [(child, 1) for child in _folders(root)]
+    seen = 0
+    while waiting and seen < MOST:
+        folder, depth = waiting.pop(0)
+        seen += 1
+        if holds_one(folder):
+            found.append(folder)
+        elif depth < DEEPEST:
+            waiting += [(child, depth + 1) for child in _folders(folder)]
+    return _without_copies(sorted(found))
+
+
+def _folders(path: Path) -> list[Path]:
+    try:
+        children = sorted(path.iterdir())
+    except OSError:  # not ours to look into
+        return []
+    return [p for p in children if p.is_dir() and not p.is_symlink() and p.name[0] not in "._"]
+
+
+def _without_copies(folders: list[Path]) -> list[Path]:
+    if len(folders) < 2:
+        return folders
+    prints = [_prints(folder) for folder in folders]
+    kept = []
+    for i, own in enumerate(prints):
+        within = [
+            j
+            for j, other in enumerate(prints)
+            if j != i and own <= other and (own < other or j < i)
+        ]
+        if not within or not own:
+            kept.append(folders[i])
+    return kept
+
+
+def _prints(folder: Path) -> frozenset[str]:
+    """Hashes of the files in and below a folder that are not empty."""
+    files = [p for p in folder.rglob("*") if p.is_file() and p.stat().st_size > 0]
+    return frozenset(hashlib.sha256(p.read_bytes()).hexdigest() for p in files)
 
 
 def others(source: Path, what: str) -> list[str]:

@@ -99,9 +99,7 @@ def _read_tables(root: Path, cal: NemohCal, names: list[str], files: list[Path])
         added_mass=a[up][:, rows][:, :, columns],
         radiation_damping=b[up][:, rows][:, :, columns],
         heading=np.radians(heading_deg),
-        froude_krylov=tables["froude_krylov"],
-        diffraction=tables["diffraction"],
-        excitation=tables["excitation"],
+        **tables,
         reference_points={n: _point(n, body) for n, body in zip(names, cal.bodies, strict=True)},
         rho=cal.rho,
         gravity=cal.gravity,
@@ -252,27 +250,16 @@ def _point(name: str, body: CalBody) -> Array | None:
 def _compare_grid(data: SourceData, cal: NemohCal) -> None:
     asked, found = np.sort(cal.omega), data.omega
     if asked.size != found.size or not np.allclose(asked, found, rtol=2e-3):
-        data.findings.append(
-            Finding(
-                "warning",
-                "frequency grid",
-                f"Nemoh.cal asks for {asked.size} equal steps in {asked[0]:.4g}..{asked[-1]:.4g} "
-                f"rad/s (or in period), the results hold {found.size} frequencies "
-                f"{found[0]:.4g}..{found[-1]:.4g}, which are used: another run?",
-            )
+        text = (
+            f"Nemoh.cal asks for {asked.size} equal steps in {asked[0]:.4g}..{asked[-1]:.4g} "
+            f"rad/s (or in period), the results hold {found.size} frequencies "
+            f"{found[0]:.4g}..{found[-1]:.4g}, which are used: another run?"
         )
-    headings = np.degrees(data.heading)
-    if headings.size and (
-        headings.size != cal.heading_deg.size or not np.allclose(headings, cal.heading_deg)
-    ):
-        data.findings.append(
-            Finding(
-                "warning",
-                "headings",
-                f"Nemoh.cal asks for {cal.heading_deg.tolist()} deg, the results hold "
-                f"{headings.tolist()}",
-            )
-        )
+        data.findings.append(Finding("warning", "frequency grid", text))
+    headings, wanted = np.degrees(data.heading), cal.heading_deg
+    if headings.size and (headings.size != wanted.size or not np.allclose(headings, wanted)):
+        text = f"Nemoh.cal asks for {wanted.tolist()} deg, the results hold {headings.tolist()}"
+        data.findings.append(Finding("warning", "headings", text))
 
 
 def _attach_hydrostatics(data: SourceData, root: Path, names: list[str], meshes: list[str]) -> None:

@@ -13,7 +13,8 @@ from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.hull.mesh_statics import mesh_statics
 from hydrodae.hdb.hull.meshes import read_mesh
-from hydrodae.hdb.readers.text import finite, read_lines
+from hydrodae.hdb.readers.stiffness_file import read_stiffness
+from hydrodae.hdb.readers.text import files_named, finite, read_lines
 from hydrodae.support.arrays import Array
 from hydrodae.support.naming import names_file
 
@@ -58,23 +59,16 @@ def find(root: Path, *names: str) -> Path | None:
         Two different files of that name at the same depth.
     """
     for name in names:
-        here = [p for p in root.iterdir() if p.is_file() and p.name.lower() == name.lower()]
-        below = [
-            p
-            for folder in sorted(root.iterdir())
-            if folder.is_dir()
-            for p in folder.iterdir()
-            if p.is_file() and p.name.lower() == name.lower()
-        ]
+        found = files_named(root, name)
         # mechanics/ repeats what the mesh folder holds
-        below = [p for p in below if p.parent.name.lower() != "mechanics"] or below
-        for found in (here, below):
-            if len(found) > 1:
-                raise DatabaseError(f"two files could be meant: {found[0]} and {found[1]}").about(
-                    "ambiguous"
-                )
-            if found:
-                return found[0]
+        repeats = [p for p in found if p.parent != root and p.parent.name.lower() == "mechanics"]
+        found = [p for p in found if p not in repeats] or found
+        if len(found) > 1:
+            raise DatabaseError(f"two files could be meant: {found[0]} and {found[1]}").about(
+                "ambiguous"
+            )
+        if found:
+            return found[0]
     return None
 
 
@@ -229,7 +223,7 @@ def _read_one(root: Path, i: int, count: int) -> _Written | None:
         return None
     buoyancy, center, values = _read_text(text)
     volume, area = values["displacement"], values.get("waterplane area")
-    return _Written(text, matrix, buoyancy, center, volume, area, _read_matrix(matrix))
+    return _Written(text, matrix, buoyancy, center, volume, area, read_stiffness(matrix).stiffness)
 
 
 def _hydrostatics(w: _Written, rho: float, weight: float) -> FileHydrostatics:
@@ -293,28 +287,3 @@ def _read_text(path: Path) -> tuple[Array, Array, dict[str, float]]:
         )
     table = np.array(pairs)
     return table[:, 0], table[:, 1], values
-
-
-@names_file
-def _read_matrix(path: Path) -> Array:
-    rows = [line.split() for line in read_lines(path) if line.strip()]
-    try:
-        matrix = np.array([[finite(t) for t in row] for row in rows[:6]])
-    except ValueError as error:
-        line = _line_of(path)
-        raise DatabaseError(f"not numbers of a 6 x 6 matrix ({error})").about(
-            "format", line=line
-        ) from None
-    if matrix.shape != (6, 6):
-        raise DatabaseError(f"not a 6 x 6 matrix but {matrix.shape}").about("shape")
-    return matrix
-
-
-def _line_of(path: Path) -> int:
-    """Number of the first line that holds something else than numbers."""
-    for count, line in enumerate(read_lines(path), start=1):
-        try:
-            [finite(token) for token in line.split()]
-        except ValueError:
-            return count
-    return 1

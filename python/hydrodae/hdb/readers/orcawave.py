@@ -24,7 +24,7 @@ from hydrodae.hdb.readers.orcawave_units import Units, units_of, water_of
 from hydrodae.hdb.readers.orcayaml import read_yaml
 from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
 from hydrodae.hdb.readers.symmetric import mirrored_forces, turned_forces
-from hydrodae.hdb.readers.text import line_of, read_text
+from hydrodae.hdb.readers.text import line_of, only, read_text
 from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.support.arrays import Array, Complex
 from hydrodae.support.naming import names_file
@@ -59,11 +59,7 @@ def orcawave_file(path: Path) -> Path | None:
     """
     paths = [path] if path.is_file() else sorted(path.iterdir())
     found = [p for p in paths if p.suffix.lower() in (".yml", ".yaml") and _has_tables(p)]
-    if len(found) > 1:
-        raise DatabaseError(f"which one is meant? {', '.join(p.name for p in found)}").about(
-            "ambiguous"
-        )
-    return found[0] if found else None
+    return only(found)
 
 
 def _has_tables(path: Path) -> bool:
@@ -122,8 +118,6 @@ def read_orcawave(path: Path) -> SourceData:
         added_mass=a,
         radiation_damping=b,
         heading=heading,
-        froude_krylov=None,
-        diffraction=None,
         excitation=force,
         reference_points={name: b.point for name, b in zip(names, bodies, strict=True)},
         rho=rho,

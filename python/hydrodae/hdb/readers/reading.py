@@ -151,17 +151,7 @@ def read(
     gravity: float | None = None,
     time_convention: str | None = None,
 ) -> HydroDatabase:
-    """Read any supported source: `hydro.h5`, or what `read_source` reads.
-
-    Parameters
-    ----------
-    source : path
-        File or folder.
-    rho, depth, gravity : float, optional
-        Of the water [kg/m3, m, m/s2], where the source does not say (WAMIT's tables).
-    time_convention : str, optional
-        "format", the convention that is the format's own, or "other", of all forces or of each, as
-        in "froude-krylov=other,diffraction=other"; default: what the long waves say.
+    """Read any supported source: `hydro.h5`, or what `read_source` reads, with its arguments.
 
     Returns
     -------

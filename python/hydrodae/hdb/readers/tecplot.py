@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.readers.text import number, read_lines
+from hydrodae.hdb.readers.text import read_lines, row_of
 from hydrodae.support.arrays import Array
 from hydrodae.support.naming import names_file
 
@@ -75,7 +75,7 @@ def read_blocks(path: Path) -> tuple[str, list[Block]]:
         if _NUMERIC.match(tokens[0]) and "=" not in text:
             if not rows:
                 start = i
-            rows.append(_row(i, tokens))
+            rows.append(row_of(tokens, i))
         else:
             close()
             title = text.strip()
@@ -144,20 +144,6 @@ def to_omega(path: Path, header: str, block: Block, table: Array) -> Array:
     raise DatabaseError(f"first column in {unit!r}; known are rad/s, Hz and s").about(
         "units", "frequency", file=path
     )
-
-
-def _row(line: int, tokens: list[str]) -> list[float]:
-    try:
-        return [float(t) for t in tokens]
-    except ValueError:
-        pass
-    row = []
-    for token in tokens:
-        try:
-            row.append(number(token))
-        except ValueError:
-            raise DatabaseError(f"{token!r} is not a number").about("format", line=line) from None
-    return row
 
 
 def _wrapped(counts: list[int], columns: int) -> list[int]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -76,6 +77,34 @@ def finite(token: str) -> float:
     return value
 
 
+def files_named(path: Path, name: str) -> list[Path]:
+    """Files of that name, whatever its case, in a folder; where there is none, one folder below."""
+    for folders in ([path], [p for p in sorted(path.iterdir()) if p.is_dir()]):
+        found = [
+            p
+            for folder in folders
+            for p in sorted(folder.iterdir())
+            if p.is_file() and p.name.lower() == name.lower()
+        ]
+        if found:
+            return found
+    return []
+
+
+def only(found: Sequence[Path]) -> Path | None:
+    """Return the one file found, None of none.
+
+    Raises
+    ------
+    DatabaseError
+        Several files could be meant.
+    """
+    if len(found) > 1:
+        text = f"which one is meant? {', '.join(p.name for p in found[:6])}: name the file"
+        raise DatabaseError(text).about("ambiguous", file=found[0].parent)
+    return found[0] if found else None
+
+
 def line_of(path: Path, word: str) -> int:
     """Number of the first line that holds a word, from 1; 0 where none does."""
     for count, line in enumerate(read_lines(path), start=1):
@@ -107,6 +136,20 @@ def numbers(line: str, count: int, expected: str = "") -> list[float]:
         raise DatabaseError(f"not numbers: {line.strip()[:60]!r}{wanted}").about(
             "format", line=count
         ) from None
+
+
+def row_of(tokens: Sequence[str], count: int) -> list[float]:
+    """Return the words of line `count` of a file as numbers; the error names the first other."""
+    try:
+        return [float(token) for token in tokens]  # the usual case, in one go
+    except ValueError:
+        row: list[float] = []
+    for token in tokens:
+        try:
+            row.append(number(token))
+        except ValueError:
+            raise DatabaseError(f"{token!r} is not a number").about("format", line=count) from None
+    return row
 
 
 @dataclass(frozen=True)

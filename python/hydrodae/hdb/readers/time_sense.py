@@ -77,14 +77,11 @@ def correct_time_sense(data: SourceData, stated: str | None = None) -> None:
     if not horizontal or not vertical or max(horizontal) > -0.5 or max(vertical) > -0.5:
         return
     _conjugate(data, list(PARTS.values()))
-    data.findings.append(
-        Finding(
-            "warning",
-            "time convention",
-            "surge and heave lag where they must lead: the phases are of the other time "
-            "convention than the format has, and are taken so (--time-convention other)",
-        )
+    text = (
+        "surge and heave lag where they must lead: the phases are of the other time "
+        "convention than the format has, and are taken so (--time-convention other)"
     )
+    data.findings.append(Finding("warning", "time convention", text))
 
 
 def _statement(data: SourceData, stated: str) -> Mapping[str, str]:

@@ -32,6 +32,15 @@ def frequency(wavenumbers: ArrayLike, depth: float, gravity: float) -> Array:
     return np.sqrt(gravity * k * (np.tanh(k * depth) if np.isfinite(depth) else 1.0))
 
 
+def damping_of_waves(omega: Array, depth: float, gravity: float, rho: float) -> tuple[Array, Array]:
+    """Return k [rad/m] and k / (8 rho g c_g) [s/kg], (nw,): half of B_ii over the mean of |F_i|^2.
+
+    The mean is that over all headings: Haskind's relation, as in `hydrodae.hdb.checks.energy`.
+    """
+    k = wavenumber(omega, depth, gravity)
+    return k, k / (8.0 * rho * gravity * group_velocity(omega, depth, gravity))
+
+
 def group_velocity(omega: Array, depth: float, gravity: float) -> Array:
     """Group velocity c_g = w/(2k) (1 + 2kh / sinh 2kh) of waves, (nw,) [m/s].
 

@@ -86,11 +86,7 @@ def kramers_kronig(omega: ArrayLike, damping: ArrayLike, *, tail: bool = True) -
 
     Parameters
     ----------
-    omega : (nw,) array
-        Frequencies [rad/s].
-    damping : (nw, ...) array
-        Radiation damping B(w).
-    tail : bool
+    omega, damping, tail
         As in `radiation_kernel`. For a pair without tail the table is cut off at w_max, and values
         close to w_max (within a few per cent) mean little.
 
@@ -133,12 +129,10 @@ def added_mass_inf_estimates(
 
     Parameters
     ----------
-    omega : (nw,) array
-        Frequencies [rad/s].
-    added_mass, damping : (nw, ...) array
-        A(w), B(w).
-    tail : bool
+    omega, damping, tail
         As in `radiation_kernel`.
+    added_mass : (nw, ...) array
+        A(w).
 
     Returns
     -------
@@ -158,9 +152,6 @@ def added_mass_inf(
     omega: ArrayLike,
     added_mass: ArrayLike,
     damping: ArrayLike,
-    *,
-    tail: bool = True,
-    estimates: ArrayLike | None = None,
 ) -> tuple[Array, Array]:
     """Added mass at infinite frequency by least squares on Ogilvie's relation.
 
@@ -170,14 +161,8 @@ def added_mass_inf(
 
     Parameters
     ----------
-    omega : (nw,) array
-        Frequencies [rad/s].
-    added_mass, damping : (nw, ...) array
-        A(w), B(w).
-    tail : bool
-        As in `radiation_kernel`.
-    estimates : (nw, ...) array, optional
-        Result of `added_mass_inf_estimates`, if it is at hand.
+    omega, added_mass, damping
+        As in `added_mass_inf_estimates`.
 
     Returns
     -------
@@ -188,9 +173,7 @@ def added_mass_inf(
         uncertainty of A_inf as far as the table itself shows it.
     """
     w = np.asarray(omega, dtype=float)
-    if estimates is None:
-        estimates = added_mass_inf_estimates(w, added_mass, damping, tail=tail)
-    estimate = np.asarray(estimates, dtype=float)
+    estimate = added_mass_inf_estimates(w, added_mass, damping)
     shape = estimate.shape[1:]
     # the last two points depend on how the table goes on beyond its end
     band = np.flatnonzero(w > BAND_FROM * w[-1])[:-2]
