@@ -10,7 +10,8 @@ from hydrodae import _core
 from hydrodae.case import Case
 from hydrodae.errors import HydrodaeError, SolverError
 from hydrodae.study.sweep.journal import Row
-from hydrodae.study.sweep.measures import Measure, MeasureError, of_statistics
+from hydrodae.study.sweep.lanes import measure_lane, signals_of
+from hydrodae.study.sweep.measures import Measure, MeasureError
 from hydrodae.study.sweep.plan import RUNG, Study, point_key
 from hydrodae.study.sweep.points import Point
 from hydrodae.study.sweep.rungs import DEFAULT, run_rung, with_capture_width
@@ -44,15 +45,15 @@ def is_verified(point: Point) -> bool:
 def make_batches(plan: Study, finished: Iterable[str]) -> list[Batch]:
     """Return what is left to run of a study.
 
-    Mean powers need no samples. Runs that measure nothing else, and have no estimate of their
-    error, are gathered in the order of the study. What is finished does not change the groups, so
+    Measures need no samples. Runs that have no estimate of their error are gathered in the order
+    of the study. What is finished does not change the groups, so
     that a sweep that goes on ends with the same numbers.
     """
     left = {point_key(point) for point in plan.points} - set(finished)
     shared: list[Point] = []
     groups: list[tuple[Point, ...]] = []
     for point in plan.points:
-        if plan.rungs != DEFAULT or plan.measures or is_verified(point):
+        if plan.rungs != DEFAULT or is_verified(point):
             groups.append((point,))
             continue
         shared.append(point)
@@ -87,14 +88,14 @@ def run_batch(
             together.append((point, case.with_values({**point, "solver.accuracy": "none"})))
         except HydrodaeError as error:
             rows[point_key(point)] = _refusal(point, error)
-    answers = _core.simulate_together([own.scene for _, own in together])
+    answers = _core.simulate_together([own.scene for _, own in together], signals_of(measures))
     for (point, own), answer in zip(together, answers, strict=True):
         if point_key(point) not in batch.wanted:
             continue
         if isinstance(answer, str):
             rows[point_key(point)] = run_case(case, measures, rungs, point) | {"alone": answer}
         else:
-            found = with_capture_width(own, of_statistics(answer))
+            found = with_capture_width(own, measure_lane(answer, measures))
             rows[point_key(point)] = _completed(point, found)
     return [row for key, row in rows.items() if key in batch.wanted]
 
