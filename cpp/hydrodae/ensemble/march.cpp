@@ -29,8 +29,6 @@ using integrate::tableaux::rk8_e5;
 using integrate::tableaux::rk8_extra_a;
 using integrate::tableaux::rk8_extra_c;
 
-constexpr std::size_t stages = 12;
-
 /// Part of the run below which steps do not come to its end in a bearable time: ten million.
 constexpr double shortest = 1e-7;
 

@@ -11,8 +11,6 @@ namespace {
 using integrate::tableaux::rk8_b;
 using integrate::tableaux::rk8_c;
 
-constexpr std::size_t stages = 12;
-
 /// Points of a step between which a turning point is looked for: two in each half wave of the
 /// derivative, a polynomial of degree 5, if its five zeros are evenly spaced.
 constexpr std::size_t looks = 10;

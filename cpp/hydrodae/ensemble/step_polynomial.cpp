@@ -14,7 +14,7 @@ namespace {
 /// and dC = h sum_j b_j c_j. The length h of the step cancels in c = C' / h.
 StepPolynomial make() {
   using namespace integrate::tableaux;
-  constexpr std::size_t n = polynomial_size, end = 12;
+  constexpr std::size_t n = polynomial_size, end = stages;
   std::array<std::array<double, polynomial_stages>, n> f{};
   for (std::size_t j = 0; j < end; ++j) {
     f[0][j] = rk8_b[j];

@@ -14,6 +14,7 @@
 
 namespace hydrodae::ensemble {
 
+inline constexpr std::size_t stages = 12;            ///< of the method
 inline constexpr std::size_t polynomial_stages = 16; ///< 12, the end, and three inside the step
 inline constexpr std::size_t polynomial_size = 7;
 

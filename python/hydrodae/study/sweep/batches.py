@@ -5,10 +5,12 @@ from __future__ import annotations
 import zlib
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 from hydrodae import _core
 from hydrodae.case import Case
 from hydrodae.errors import HydrodaeError, SolverError
+from hydrodae.study.sweep.control import Controls
 from hydrodae.study.sweep.journal import Row
 from hydrodae.study.sweep.lanes import measure_lane, signals_of
 from hydrodae.study.sweep.measures import Measure, MeasureError
@@ -18,6 +20,8 @@ from hydrodae.study.sweep.rungs import DEFAULT, run_rung, with_capture_width
 
 #: One run in so many is made twice, so that its error is known: 5 % of the time of a study.
 VERIFIED = 20
+#: Of the case that this process runs.
+_controls: Controls | None = None
 
 
 @dataclass(frozen=True)
@@ -31,10 +35,13 @@ class Batch:
         depend on all points in it.
     wanted : frozenset of str
         Keys of the points whose rows are missing.
+    seeds : tuple of (str, value)
+        Seeds at which sea states are linearised for their control variates; empty: without.
     """
 
     points: tuple[Point, ...]
     wanted: frozenset[str]
+    seeds: tuple[tuple[str, Any], ...] = ()
 
 
 def is_verified(point: Point) -> bool:
@@ -49,10 +56,16 @@ def make_batches(plan: Study, finished: Iterable[str]) -> list[Batch]:
     of the study. What is finished does not change the groups, so
     that a sweep that goes on ends with the same numbers.
     """
-    left = {point_key(point) for point in plan.points} - set(finished)
+    return batches_of(
+        plan, plan.points, {point_key(point) for point in plan.points} - set(finished)
+    )
+
+
+def batches_of(plan: Study, points: Iterable[Point], left: set[str]) -> list[Batch]:
+    """Return the batches of some points of a study, of which those in `left` have no rows."""
     shared: list[Point] = []
     groups: list[tuple[Point, ...]] = []
-    for point in plan.points:
+    for point in points:
         if plan.rungs != DEFAULT or is_verified(point):
             groups.append((point,))
             continue
@@ -63,9 +76,10 @@ def make_batches(plan: Study, finished: Iterable[str]) -> list[Batch]:
     if shared:
         groups.append(tuple(shared))
     out = []
+    seeds = plan.repetitions.seeds if plan.repetitions.control != "none" else ()
     for group in groups:
         if wanted := left.intersection(map(point_key, group)):
-            out.append(Batch(group, frozenset(wanted)))
+            out.append(Batch(group, frozenset(wanted), seeds))
     return out
 
 
@@ -79,6 +93,23 @@ def run_batch(
     CaseError
         What is measured is not in the results: no run of the study would have it.
     """
+    rows = _run_batch(case, measures, rungs, batch)
+    return _with_controls(case, batch, rows) if batch.seeds else rows
+
+
+def _with_controls(case: Case, batch: Batch, rows: list[Row]) -> list[Row]:
+    """Add the control variates of completed runs."""
+    global _controls
+    if _controls is None or not _controls.serves(case, batch.seeds):
+        _controls = Controls(case, batch.seeds)
+    return [
+        row | _controls.of(row["point"]) if row["status"] == "completed" else row for row in rows
+    ]
+
+
+def _run_batch(
+    case: Case, measures: tuple[Measure, ...], rungs: tuple[str, ...], batch: Batch
+) -> list[Row]:
     if len(batch.points) == 1:
         return [run_case(case, measures, rungs, batch.points[0])]
     rows: dict[str, Row] = {}

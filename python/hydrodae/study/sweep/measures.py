@@ -43,7 +43,11 @@ TAKEN = (
 )
 #: What stands behind the name of a result for the ends of its sampling interval.
 ENDS = ("_low", "_high")
-TAKEN += ("rung", "mean_power_absorbed_mean", "mean_power_absorbed_interval")
+TAKEN += ("rung", "runs")
+TAKEN += tuple(
+    f"mean_power_absorbed{end}"
+    for end in ("_mean", "_interval", "_control", "_uncontrolled_interval")
+)
 TAKEN += tuple(
     f"{name}{end}"
     for name in ("mean_power_absorbed", "capture_width", "annual_energy")
