@@ -93,23 +93,32 @@ def run_batch(
     CaseError
         What is measured is not in the results: no run of the study would have it.
     """
-    rows = _run_batch(case, measures, rungs, batch)
-    return _with_controls(case, batch, rows) if batch.seeds else rows
+    cases: dict[str, Case] = {}
+    rows = _run_batch(case, measures, rungs, batch, cases)
+    return _with_controls(case, batch, rows, cases) if batch.seeds else rows
 
 
-def _with_controls(case: Case, batch: Batch, rows: list[Row]) -> list[Row]:
-    """Add the control variates of completed runs."""
+def _with_controls(case: Case, batch: Batch, rows: list[Row], cases: dict[str, Case]) -> list[Row]:
+    """Add the control variates of completed runs, whose cases may be known by key."""
     global _controls
     if _controls is None or not _controls.serves(case, batch.seeds):
         _controls = Controls(case, batch.seeds)
     return [
-        row | _controls.of(row["point"]) if row["status"] == "completed" else row for row in rows
+        row | _controls.of(row["point"], cases.get(row["key"]))
+        if row["status"] == "completed"
+        else row
+        for row in rows
     ]
 
 
 def _run_batch(
-    case: Case, measures: tuple[Measure, ...], rungs: tuple[str, ...], batch: Batch
+    case: Case,
+    measures: tuple[Measure, ...],
+    rungs: tuple[str, ...],
+    batch: Batch,
+    cases: dict[str, Case],
 ) -> list[Row]:
+    """Rows of a batch; the cases at its points into `cases`, by key."""
     if len(batch.points) == 1:
         return [run_case(case, measures, rungs, batch.points[0])]
     rows: dict[str, Row] = {}
@@ -119,6 +128,7 @@ def _run_batch(
             together.append((point, case.with_values({**point, "solver.accuracy": "none"})))
         except HydrodaeError as error:
             rows[point_key(point)] = _refusal(point, error)
+    cases.update((point_key(point), own) for point, own in together)
     answers = _core.simulate_together([own.scene for _, own in together], signals_of(measures))
     for (point, own), answer in zip(together, answers, strict=True):
         if point_key(point) not in batch.wanted:

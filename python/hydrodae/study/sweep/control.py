@@ -136,18 +136,20 @@ class Controls:
         """Return whether the variates are those of this case and these seeds."""
         return self._case is case and self._seeds == seeds
 
-    def of(self, point: dict[str, Any]) -> dict[str, Any]:
+    def of(self, point: dict[str, Any], own: Case | None = None) -> dict[str, Any]:
         """Parts of a row: `control`, by name, or `uncontrolled`, why there is none.
 
         Parameters
         ----------
         point : dict
             Of a run that completed.
+        own : Case, optional
+            At the point, where it is known.
         """
         transfer = self._transfer({**point, **dict(self._seeds)})
         if isinstance(transfer, str):
             return {"uncontrolled": transfer}
-        own = self._case.with_values(point)
+        own = own or self._case.with_values(point)
         start = float(case_tables(own).get("sea", {}).get("ramp", 0.0))
         return {"control": excess(transfer, wave_components(own), start, own.scene.end_time)}
 
