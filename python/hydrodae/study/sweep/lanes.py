@@ -24,11 +24,10 @@ from hydrodae.study.sweep.measures import (
     Measure,
     MeasureError,
     Term,
-    amplitude,
-    mean_period,
     of_statistics,
     with_intervals_and_ratios,
 )
+from hydrodae.study.sweep.periods import amplitude, mean_period
 
 #: What the kernel takes for a signal (`_core.simulate_together`).
 Signal = tuple[list[tuple[str, str, float, int]], float, bool, float]
