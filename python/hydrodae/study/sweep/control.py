@@ -153,13 +153,22 @@ class Controls:
         start = float(case_tables(own).get("sea", {}).get("ramp", 0.0))
         return {"control": excess(transfer, wave_components(own), start, own.scene.end_time)}
 
+    def _check_phases(self, case: Case) -> None:
+        """Raise CaseError for a wave whose phases are the same in all runs: they have no mean."""
+        drawn = {key for key, _ in self._seeds}
+        for wave in case.scene.wave_names:
+            if f"wave.{wave}.seed" not in drawn:
+                raise CaseError(f"wave {wave!r} has the same phases in all runs")
+
     def _transfer(self, point: dict[str, Any]) -> Transfer | str:
         key = json.dumps(point, sort_keys=True)
         if key not in self._known:
             if len(self._known) >= KEPT:
                 self._known.pop(next(iter(self._known)))
             try:
-                self._known[key] = transfer_of(self._case.with_values(point))
+                case = self._case.with_values(point)
+                self._check_phases(case)
+                self._known[key] = transfer_of(case)
             except HydrodaeError as error:
                 self._known[key] = str(error).splitlines()[0]
         return self._known[key]

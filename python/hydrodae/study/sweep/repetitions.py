@@ -84,6 +84,8 @@ def read_repetitions(file: Path, given: Mapping[str, Any]) -> tuple[Repetitions,
         first = {
             key: grid[key][0] for key in names if isinstance(grid.get(key), list) and grid[key]
         }
+        if control != "none" and len(first) < len(names):
+            raise CaseError(f"{file}: key 'control' needs a list of seeds in [grid]")
         return Repetitions(tuple(first.items()), control), dict(given)
     interval, runs = given["interval"], given.get("runs")
     if not is_number(interval) or not 0.0 < interval < 1.0:
