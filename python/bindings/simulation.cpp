@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include <pybind11/stl.h>
@@ -123,12 +124,41 @@ py::dict count_scene(const model::Scene& scene) {
   return out;
 }
 
-/// One dict of attributes a scene, or the reason why it has to be run alone.
-py::list run_together(const std::vector<const model::Scene*>& scenes) {
+/// A signal: terms (channel, component, factor, power), start, turning points?, frequency.
+using Signal = std::tuple<std::vector<std::tuple<std::string, std::string, double, int>>, double,
+                          bool, double>;
+
+std::vector<ensemble::Wanted> wanted_of(const std::vector<Signal>& signals) {
+  std::vector<ensemble::Wanted> out;
+  for (const auto& [terms, start, turns, frequency] : signals) {
+    ensemble::Wanted wanted{{}, start, turns, frequency};
+    for (const auto& [channel, component, factor, power] : terms)
+      wanted.terms.push_back({channel, component, factor, power});
+    out.push_back(std::move(wanted));
+  }
+  return out;
+}
+
+py::dict dict_of(const ensemble::Measured& m) {
+  using namespace py::literals;
+  const auto array = [](const std::vector<double>& x) {
+    return py::array_t<double>(static_cast<py::ssize_t>(x.size()), x.data());
+  };
+  return py::dict("unit"_a = m.unit, "start"_a = m.start, "duration"_a = m.duration,
+                  "mean"_a = m.mean, "mean_square"_a = m.mean_square, "last"_a = m.last,
+                  "least"_a = m.least, "most"_a = m.most, "span_means"_a = array(m.span_means),
+                  "span_squares"_a = array(m.span_squares), "times"_a = array(m.times),
+                  "turns"_a = array(m.turns), "cosine"_a = m.cosine, "sine"_a = m.sine);
+}
+
+/// Attributes and measured signals of each scene, or the reason why it has to be run alone.
+py::list run_together(const std::vector<const model::Scene*>& scenes,
+                      const std::vector<Signal>& signals) {
   std::vector<ensemble::Answer> answers;
+  const std::vector<ensemble::Wanted> wanted = wanted_of(signals);
   {
     const py::gil_scoped_release release;
-    answers = ensemble::simulate_together(scenes);
+    answers = ensemble::simulate_together(scenes, wanted);
   }
   py::list out;
   for (const ensemble::Answer& answer : answers) {
@@ -139,6 +169,11 @@ py::list run_together(const std::vector<const model::Scene*>& scenes) {
     py::dict attributes;
     for (const auto& [name, value] : answer.attributes)
       attributes[py::str(name)] = std::visit([](const auto& x) { return py::cast(x); }, value);
+    py::list measured;
+    for (const ensemble::Measured& each : answer.measured)
+      measured.append(dict_of(each));
+    if (!signals.empty())
+      attributes["measured"] = measured;
     out.append(attributes);
   }
   return out;
@@ -157,9 +192,13 @@ void bind_simulation(py::module_& module) {
   module.attr("lanes") = ensemble::width;
   module.def(
       "simulate_together", &run_together, py::arg("scenes"),
+      py::arg("signals") = std::vector<Signal>{},
       "Run scenes that differ in their seas and take-offs side by side, without samples.\n\n"
-      "Returns for each scene the attributes that its results file would have, or the reason "
-      "(a text)\nwhy it has to be run by itself.");
+      "`signals`: sums of terms (channel, component, factor, power), each with its start [s] "
+      "(negative: the\nend of the ramp), whether its turning points are wanted, and the frequency "
+      "[Hz] of a Fourier integral\n(negative: none).\n\n"
+      "Returns for each scene the attributes that its results file would have, with one dict a "
+      "signal under\n\"measured\", or the reason (a text) why it has to be run by itself.");
   module.def(
       "simulate", &run, py::arg("scene"), py::arg("output"), py::arg("progress"), py::arg("drives"),
       py::arg("forces") = Functions{}, py::arg("controllers") = Functions{},

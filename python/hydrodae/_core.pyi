@@ -168,11 +168,18 @@ class Headings:
     def misses(self) -> NDArray[np.float64]:
         """What interpolation without every other heading misses, from the forces (n, nh)."""
 
-def simulate_together(scenes: Sequence[Scene]) -> list[dict[str, Any] | str]:
+def simulate_together(
+    scenes: Sequence[Scene],
+    signals: Sequence[tuple[Sequence[tuple[str, str, float, int]], float, bool, float]] = ...,
+) -> list[dict[str, Any] | str]:
     """Run scenes that differ in their seas and take-offs side by side, without samples.
 
-    Returns for each scene the attributes that its results file would have, or the reason why it
-    has to be run by itself.
+    `signals`: sums of terms (channel, component, factor, power), each with its start [s] (negative:
+    the end of the ramp), whether its turning points are wanted, and the frequency [Hz] of a Fourier
+    integral (negative: none).
+
+    Returns for each scene the attributes that its results file would have, with one dict a signal
+    under "measured", or the reason why it has to be run by itself.
     """
 
 def simulate(

@@ -53,6 +53,14 @@ public:
 
   const std::vector<std::string>& take_offs() const { return take_offs_; }
 
+  const std::vector<BodyLanes>& bodies() const { return bodies_; } ///< without accelerations
+  /// Multipliers of the rows that hold, joint by joint [N, N m].
+  const std::vector<Lanes>& multipliers() const { return lambda_; }
+  /// What the laws of run k saw and answered, and its unknowns.
+  const system::Workspace<double>& state(std::size_t k) const { return runs_[k].state; }
+  const VectorX& unknowns(std::size_t k) const { return runs_[k].y; }
+  const system::Regime& regime(std::size_t k) const { return runs_[k].s; }
+
   /// The angles of run k are followed from y, y' at an accepted time on.
   void accept(int k, double t, const VectorX& y, const VectorX& yp);
   const system::Turns& turns(int k) const { return runs_[static_cast<std::size_t>(k)].state.turns; }

@@ -7,6 +7,7 @@
 
 #include "hydrodae/core/text.h"
 #include "hydrodae/ensemble/lane_model.h"
+#include "hydrodae/ensemble/running_sums.h"
 #include "hydrodae/integrate/dormand_prince_8.h"
 #include "hydrodae/integrate/explicit_steps.h"
 #include "hydrodae/linalg/equations.h"
@@ -25,8 +26,8 @@ using integrate::tableaux::rk8_b;
 using integrate::tableaux::rk8_c;
 using integrate::tableaux::rk8_e3;
 using integrate::tableaux::rk8_e5;
-
-constexpr std::size_t stages = 12;
+using integrate::tableaux::rk8_extra_a;
+using integrate::tableaux::rk8_extra_c;
 
 /// Part of the run below which steps do not come to its end in a bearable time: ten million.
 constexpr double shortest = 1e-7;
@@ -51,7 +52,7 @@ struct Run {
 
 class March {
 public:
-  explicit March(const std::vector<std::unique_ptr<Start>>& starts);
+  March(const std::vector<std::unique_ptr<Start>>& starts, const std::vector<Wanted>& wanted);
   std::vector<Outcome> operator()();
 
 private:
@@ -63,13 +64,14 @@ private:
   double first_step() const;
   void look(std::size_t k, double start);
   double bound();
-  void set_stage(double h, std::size_t count, std::span<const double> weights);
+  void set_stage(const Column& start, double h, std::size_t count, std::span<const double> weights);
   void try_step(double h);
   void combine(double h, std::span<const double> weights);
   Lanes norm();
   bool is_smooth(double h);
   Lanes error(double h);
-  void remember_powers(std::size_t stage);
+  void remember(std::size_t stage, double t);
+  void look_inside(double t0, double h);
   bool step(double end);
   void accept(double h, double t);
   void add_work(double h);
@@ -88,10 +90,10 @@ private:
   const double end_, ramp_, rtol_;
   double t_ = 0.0, h_ = 0.0, last_error_ = 1e-4;
   long steps_ = 0, failures_ = 0, calls_ = 0;
-  Column y_, stage_, error_, scales_;
-  std::vector<Lanes> sums_; ///< by group
-  Lanes usual_jump_{0.0};   ///< see is_smooth
-  std::vector<Column> k_;   ///< rates of the stages, and at the end
+  Column y_, y0_, stage_, error_, scales_; ///< `y0_`: at the start of the last step
+  std::vector<Lanes> sums_;                ///< by group
+  Lanes usual_jump_{0.0};                  ///< see is_smooth
+  std::vector<Column> k_; ///< rates of the stages, at the end, and of three stages inside
   std::vector<std::vector<Lanes>>
       powers_;                   ///< of each stage and of the end: take-offs, then all loads
   std::vector<Lanes> work_;      ///< their integrals [J]
@@ -100,6 +102,7 @@ private:
   std::vector<Lanes> churned_; ///< of each balance, the integral of |power| [J]
   long next_sample_ = 0;
   std::vector<double> row_;
+  RunningSums sums_of_signals_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
@@ -116,13 +119,13 @@ March::regimes_of(const std::vector<std::unique_ptr<Start>>& starts) {
   return out;
 }
 
-March::March(const std::vector<std::unique_ptr<Start>>& starts)
+March::March(const std::vector<std::unique_ptr<Start>>& starts, const std::vector<Wanted>& wanted)
     : starts_(starts), count_(std::min<std::size_t>(starts.size(), width)),
       scene_(starts[0]->scene), model_(regimes_of(starts)), n_(model_.size()),
       end_(scene_.solver.end_time), ramp_(starts[0]->system.has_waves() ? scene_.sea.ramp : 0.0),
-      rtol_(scene_.solver.rtol), y_(static_cast<std::size_t>(n_)), stage_(y_), error_(y_),
+      rtol_(scene_.solver.rtol), y_(static_cast<std::size_t>(n_)), y0_(y_), stage_(y_), error_(y_),
       scales_(y_), sums_(static_cast<std::size_t>(starts[0]->regime.n_error_groups())),
-      k_(stages + 1, y_) {
+      k_(polynomial_stages, y_), sums_of_signals_(model_, wanted, ramp_, end_) {
   work_.assign(model_.take_offs().size() + model_.balances().size(), Lanes(0.0));
   powers_.assign(stages + 1, work_);
   runs_.reserve(count_);
@@ -136,7 +139,7 @@ March::March(const std::vector<std::unique_ptr<Start>>& starts)
     model_.accept(static_cast<int>(k), 0.0, run.y, run.yp);
   }
   model_.accelerations(0.0, y_.data(), k_[stages].data());
-  remember_powers(stages);
+  remember(stages, 0.0);
   start_ = model_.balances();
   churned_.assign(start_.size(), Lanes(0.0));
   for (Run& run : runs_)
@@ -182,18 +185,21 @@ double March::bound() {
   return scene_.solver.max_step > 0.0 ? std::min(out, t_ + scene_.solver.max_step) : out;
 }
 
-/// stage_ = y_ + h sum_j weights_j k_j
-HYDRODAE_WIDE void March::set_stage(double h, std::size_t count, std::span<const double> weights) {
+/// stage_ = start + h sum_j weights_j k_j
+HYDRODAE_WIDE void March::set_stage(const Column& start, double h, std::size_t count,
+                                    std::span<const double> weights) {
   for (std::size_t i = 0; i < stage_.size(); ++i) {
     Lanes sum(0.0);
     for (std::size_t j = 0; j < count; ++j)
       if (weights[j] != 0.0)
         sum += Lanes(h * weights[j]) * k_[j][i];
-    stage_[i] = y_[i] + sum;
+    stage_[i] = start[i] + sum;
   }
 }
 
-void March::remember_powers(std::size_t stage) {
+/// Powers and signals at the state of the last accelerations.
+void March::remember(std::size_t stage, double t) {
+  sums_of_signals_.see(stage, t, k_[stage].data());
   std::copy(model_.absorbed().begin(), model_.absorbed().end(), powers_[stage].begin());
   auto power = powers_[stage].begin() + std::ssize(model_.absorbed());
   for (const LaneModel::Balance& balance : model_.balances())
@@ -204,13 +210,14 @@ void March::remember_powers(std::size_t stage) {
 void March::try_step(double h) {
   k_[0] = k_[stages];
   powers_[0] = powers_[stages];
+  sums_of_signals_.begin_step();
   for (std::size_t i = 1; i < stages; ++i) {
-    set_stage(h, i, std::span(rk8_a).subspan(i * stages));
+    set_stage(y_, h, i, std::span(rk8_a).subspan(i * stages));
     model_.accelerations(t_ + rk8_c[i] * h, stage_.data(), k_[i].data());
-    remember_powers(i);
+    remember(i, t_ + rk8_c[i] * h);
     ++calls_;
   }
-  set_stage(h, stages, rk8_b);
+  set_stage(y_, h, stages, rk8_b);
 }
 
 /// error_ = h sum_j weights_j k_j
@@ -318,13 +325,14 @@ bool March::step(double end) {
     model_.project(stage_.data());
     model_.accelerations(reached, stage_.data(), k_[stages].data());
     ++calls_;
-    remember_powers(stages);
+    remember(stages, reached);
     if (!fixed && !is_smooth(h)) {
       ++failures_;
       failed = true;
       h_ = 0.25 * h;
       k_[stages] = k_[0];
       powers_[stages] = powers_[0];
+      sums_of_signals_.reject();
       continue;
     }
     for (std::size_t k = 0; k < count_; ++k)
@@ -344,6 +352,7 @@ bool March::step(double end) {
 }
 
 void March::accept(double h, double t) {
+  y0_ = y_;
   y_ = stage_;
   const std::vector<Lanes> before = work_;
   add_work(h);
@@ -362,6 +371,21 @@ void March::accept(double h, double t) {
     model_.accept(static_cast<int>(k), t_, run.y, run.yp);
     run.scale.accept(t_, run.y);
     look(k, start);
+  }
+  if (sums_of_signals_.looks_inside(start))
+    look_inside(start, h);
+  sums_of_signals_.add(start, h);
+}
+
+/// Signals at the three further stages of the interpolant (ExplicitRk::extend).
+void March::look_inside(double t0, double h) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t stage = stages + 1 + i;
+    set_stage(y0_, h, stage, std::span(rk8_extra_a).subspan(16 * i));
+    const double t = t0 + rk8_extra_c[i] * h;
+    model_.accelerations(t, stage_.data(), k_[stage].data());
+    sums_of_signals_.see(stage, t, k_[stage].data());
+    ++calls_;
   }
 }
 
@@ -434,7 +458,7 @@ void March::sample(double t0, double h, const std::vector<Lanes>& before) {
 Outcome March::outcome(std::size_t k) const {
   const Run& run = runs_[k];
   if (!run.left.empty())
-    return {std::nullopt, run.left};
+    return {std::nullopt, run.left, {}};
   RunStatistics s;
   s.status = "completed";
   s.method = "explicit_rk in lanes";
@@ -453,7 +477,7 @@ Outcome March::outcome(std::size_t k) const {
   s.wall_time = s.solver_time =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count() /
       static_cast<double>(count_);
-  return {s, ""};
+  return {s, "", sums_of_signals_.of(k)};
 }
 
 std::vector<Outcome> March::operator()() {
@@ -461,7 +485,11 @@ std::vector<Outcome> March::operator()() {
   h_ = options.step > 0.0
            ? options.step
            : std::min(options.max_step > 0.0 ? options.max_step : end_, first_step());
-  while (t_ < end_ && step(t_ < ramp_ ? std::min(ramp_, end_) : end_))
+  const auto stop = [&] {
+    const double next = sums_of_signals_.next_stop(t_);
+    return t_ < ramp_ ? std::min(ramp_, next) : next;
+  };
+  while (t_ < end_ && step(stop()))
     if (t_ == ramp_)
       mean_from_ = work_;
   std::vector<Outcome> out;
@@ -472,8 +500,9 @@ std::vector<Outcome> March::operator()() {
 
 } // namespace
 
-std::vector<Outcome> march(const std::vector<std::unique_ptr<Start>>& starts) {
-  return March(starts)();
+std::vector<Outcome> march(const std::vector<std::unique_ptr<Start>>& starts,
+                           const std::vector<Wanted>& wanted) {
+  return March(starts, wanted)();
 }
 
 } // namespace hydrodae::ensemble

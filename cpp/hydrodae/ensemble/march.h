@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hydrodae/ensemble/measured.h"
 #include "hydrodae/model/scene.h"
 #include "hydrodae/simulation.h"
 #include "hydrodae/system/jacobian.h"
@@ -37,11 +38,14 @@ std::string apart_because(const Start& one, const Start& other);
 struct Outcome {
   std::optional<RunStatistics> statistics; ///< absent: the run has left the march
   std::string left;                        ///< why, with the time
+  std::vector<Measured> measured;          ///< of each signal; none of a run that has left
 };
 
 /// Marches at most `width` runs from 0 to their common end by the Runge-Kutta method of order 8
 /// (Dormand and Prince), whose local error is tested in each lane. Powers are summed by the stages
 /// of the method, no samples are kept.
-std::vector<Outcome> march(const std::vector<std::unique_ptr<Start>>& starts);
+/// @param wanted signals that the lanes know (`unknown_because`, probes.h)
+std::vector<Outcome> march(const std::vector<std::unique_ptr<Start>>& starts,
+                           const std::vector<Wanted>& wanted);
 
 } // namespace hydrodae::ensemble

@@ -5,6 +5,7 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/ensemble/lanes.h"
 #include "hydrodae/ensemble/march.h"
+#include "hydrodae/ensemble/probes.h"
 #include "hydrodae/session/output.h"
 
 namespace hydrodae::ensemble {
@@ -31,7 +32,8 @@ void join(std::vector<Group>& groups, std::unique_ptr<Start> start, std::size_t 
 
 } // namespace
 
-std::vector<Answer> simulate_together(const std::vector<const model::Scene*>& scenes) {
+std::vector<Answer> simulate_together(const std::vector<const model::Scene*>& scenes,
+                                      const std::vector<Wanted>& wanted) {
   std::vector<Answer> out(scenes.size());
   std::vector<Group> groups;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -40,17 +42,19 @@ std::vector<Answer> simulate_together(const std::vector<const model::Scene*>& sc
       auto start = std::make_unique<Start>(*scenes[i], like);
       out[i].alone = alone_because(*start);
       if (out[i].alone.empty())
+        out[i].alone = unknown_because(start->regime, wanted);
+      if (out[i].alone.empty())
         join(groups, std::move(start), i);
     } catch (const Error& error) {
       out[i].alone = error.what();
     }
   }
   for (const Group& group : groups) {
-    const std::vector<Outcome> outcomes = march(group.starts);
+    const std::vector<Outcome> outcomes = march(group.starts, wanted);
     for (std::size_t k = 0; k < outcomes.size(); ++k) {
       Answer& answer = out[group.places[k]];
       if (outcomes[k].statistics)
-        answer.attributes = attributes(*outcomes[k].statistics);
+        answer = {attributes(*outcomes[k].statistics), "", outcomes[k].measured};
       else
         answer.alone = outcomes[k].left;
     }

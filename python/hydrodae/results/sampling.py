@@ -82,12 +82,37 @@ def largest_interval(values: ArrayLike) -> Interval:
     (float, float)
         Least and largest; nan for fewer than `FEWEST` samples.
     """
-    from scipy.special import stdtrit  # takes half a second: only where it is used
-
     x = np.asarray(values, dtype=float)
     if len(x) < FEWEST:
         return NONE
-    highest = np.array([span.max() for span in np.array_split(x, SPANS)])
+    return largest_of_spans(np.array([span.max() for span in np.array_split(x, SPANS)]))
+
+
+def mean_of_spans(means: ArrayLike, one_sign: bool) -> Interval:
+    """Interval of `mean_interval` from the means of the spans.
+
+    Parameters
+    ----------
+    means : (SPANS,) array
+        Of equal spans.
+    one_sign : bool
+        The values never change their sign.
+
+    Returns
+    -------
+    (float, float)
+        In the unit of the means.
+    """
+    values = np.repeat(np.asarray(means, dtype=float), FEWEST // SPANS)
+    mean = 0.0 if one_sign else float(values.mean())  # around zero it takes no logarithms
+    low, high = _core.mean_interval(values - mean) or NONE
+    return mean + low, mean + high
+
+
+def largest_of_spans(highest: Array) -> Interval:
+    """Interval of `largest_interval` from the largest value of each span (SPANS,)."""
+    from scipy.special import stdtrit  # takes half a second: only where it is used
+
     s, c = float(highest.std(ddof=1)), np.sqrt(6.0) / np.pi * np.log(SPANS)
     expected = float(highest.mean()) + c * s
     half = float(stdtrit(SPANS - 1, 0.975)) * s * np.sqrt((1.0 + 1.14 * c + 1.1 * c**2) / SPANS)

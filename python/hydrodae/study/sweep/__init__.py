@@ -11,8 +11,9 @@ from hydrodae.errors import CaseError
 from hydrodae.study.sweep.batches import make_batches
 from hydrodae.study.sweep.cluster import run_points_on
 from hydrodae.study.sweep.journal import Journal
-from hydrodae.study.sweep.plan import RUNG, Study, read_study
+from hydrodae.study.sweep.plan import RUNG, Study, point_key, read_study
 from hydrodae.study.sweep.pool import run_points
+from hydrodae.study.sweep.repetitions import Rounds
 from hydrodae.study.sweep.rungs import open_case
 from hydrodae.study.sweep.table import claim, dataset, text, texts_of, write
 from hydrodae.support.version import version
@@ -73,12 +74,16 @@ def sweep(
     _check_keys(plan, case)
     record = target.with_name(target.stem + ".runs.jsonl")
     with Journal(record, plan.identity(case)) as journal:
-        left = make_batches(plan, journal.rows)
-        done = len(plan.points) - sum(len(batch.wanted) for batch in left)
-        if left:
+        batches = make_batches(plan, journal.rows)
+        done = sum(point_key(point) in journal.rows for point in plan.points)
+        if batches:
+            interval = plan.repetitions.interval
+            left = Rounds(plan, journal.rows) if interval else iter(batches)
             what = (set or {}, plan.measures, plan.rungs, left)
             if scheduler is None:
-                rows = run_points(str(plan.case), *what, jobs)
+                rows = run_points(
+                    str(plan.case), *what, min(jobs or os.cpu_count() or 1, len(batches))
+                )
             else:
                 rows = run_points_on(scheduler, str(plan.case.resolve()), *what)
             for row in rows:

@@ -5,18 +5,23 @@ from __future__ import annotations
 import zlib
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 from hydrodae import _core
 from hydrodae.case import Case
 from hydrodae.errors import HydrodaeError, SolverError
+from hydrodae.study.sweep.control import Controls
 from hydrodae.study.sweep.journal import Row
-from hydrodae.study.sweep.measures import Measure, MeasureError, of_statistics
+from hydrodae.study.sweep.lanes import measure_lane, signals_of
+from hydrodae.study.sweep.measures import Measure, MeasureError
 from hydrodae.study.sweep.plan import RUNG, Study, point_key
 from hydrodae.study.sweep.points import Point
 from hydrodae.study.sweep.rungs import DEFAULT, run_rung, with_capture_width
 
 #: One run in so many is made twice, so that its error is known: 5 % of the time of a study.
 VERIFIED = 20
+#: Of the case that this process runs.
+_controls: Controls | None = None
 
 
 @dataclass(frozen=True)
@@ -30,10 +35,13 @@ class Batch:
         depend on all points in it.
     wanted : frozenset of str
         Keys of the points whose rows are missing.
+    seeds : tuple of (str, value)
+        Seeds at which sea states are linearised for their control variates; empty: without.
     """
 
     points: tuple[Point, ...]
     wanted: frozenset[str]
+    seeds: tuple[tuple[str, Any], ...] = ()
 
 
 def is_verified(point: Point) -> bool:
@@ -44,15 +52,21 @@ def is_verified(point: Point) -> bool:
 def make_batches(plan: Study, finished: Iterable[str]) -> list[Batch]:
     """Return what is left to run of a study.
 
-    Mean powers need no samples. Runs that measure nothing else, and have no estimate of their
-    error, are gathered in the order of the study. What is finished does not change the groups, so
+    Measures need no samples. Runs that have no estimate of their error are gathered in the order
+    of the study. What is finished does not change the groups, so
     that a sweep that goes on ends with the same numbers.
     """
-    left = {point_key(point) for point in plan.points} - set(finished)
+    return batches_of(
+        plan, plan.points, {point_key(point) for point in plan.points} - set(finished)
+    )
+
+
+def batches_of(plan: Study, points: Iterable[Point], left: set[str]) -> list[Batch]:
+    """Return the batches of some points of a study, of which those in `left` have no rows."""
     shared: list[Point] = []
     groups: list[tuple[Point, ...]] = []
-    for point in plan.points:
-        if plan.rungs != DEFAULT or plan.measures or is_verified(point):
+    for point in points:
+        if plan.rungs != DEFAULT or is_verified(point):
             groups.append((point,))
             continue
         shared.append(point)
@@ -62,9 +76,10 @@ def make_batches(plan: Study, finished: Iterable[str]) -> list[Batch]:
     if shared:
         groups.append(tuple(shared))
     out = []
+    seeds = plan.repetitions.seeds if plan.repetitions.control != "none" else ()
     for group in groups:
         if wanted := left.intersection(map(point_key, group)):
-            out.append(Batch(group, frozenset(wanted)))
+            out.append(Batch(group, frozenset(wanted), seeds))
     return out
 
 
@@ -78,6 +93,32 @@ def run_batch(
     CaseError
         What is measured is not in the results: no run of the study would have it.
     """
+    cases: dict[str, Case] = {}
+    rows = _run_batch(case, measures, rungs, batch, cases)
+    return _with_controls(case, batch, rows, cases) if batch.seeds else rows
+
+
+def _with_controls(case: Case, batch: Batch, rows: list[Row], cases: dict[str, Case]) -> list[Row]:
+    """Add the control variates of completed runs, whose cases may be known by key."""
+    global _controls
+    if _controls is None or not _controls.serves(case, batch.seeds):
+        _controls = Controls(case, batch.seeds)
+    return [
+        row | _controls.of(row["point"], cases.get(row["key"]))
+        if row["status"] == "completed"
+        else row
+        for row in rows
+    ]
+
+
+def _run_batch(
+    case: Case,
+    measures: tuple[Measure, ...],
+    rungs: tuple[str, ...],
+    batch: Batch,
+    cases: dict[str, Case],
+) -> list[Row]:
+    """Rows of a batch; the cases at its points into `cases`, by key."""
     if len(batch.points) == 1:
         return [run_case(case, measures, rungs, batch.points[0])]
     rows: dict[str, Row] = {}
@@ -87,14 +128,15 @@ def run_batch(
             together.append((point, case.with_values({**point, "solver.accuracy": "none"})))
         except HydrodaeError as error:
             rows[point_key(point)] = _refusal(point, error)
-    answers = _core.simulate_together([own.scene for _, own in together])
+    cases.update((point_key(point), own) for point, own in together)
+    answers = _core.simulate_together([own.scene for _, own in together], signals_of(measures))
     for (point, own), answer in zip(together, answers, strict=True):
         if point_key(point) not in batch.wanted:
             continue
         if isinstance(answer, str):
             rows[point_key(point)] = run_case(case, measures, rungs, point) | {"alone": answer}
         else:
-            found = with_capture_width(own, of_statistics(answer))
+            found = with_capture_width(own, measure_lane(answer, measures))
             rows[point_key(point)] = _completed(point, found)
     return [row for key, row in rows.items() if key in batch.wanted]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from typing import Any
 
@@ -46,7 +46,7 @@ def run_points_on(
     values: Mapping[str, Any],
     measures: tuple[Measure, ...],
     rungs: tuple[str, ...],
-    batches: Sequence[Batch],
+    batches: Iterator[Batch],
 ) -> Iterator[Row]:
     """Run the case at every point on the workers of a scheduler; rows come as they are finished.
 
@@ -71,13 +71,12 @@ def run_points_on(
         raise CaseError(f"--scheduler {address}: {error}") from None
     with client:
         _check_versions(address, client.run(version))
-        left = iter(batches)
         width = 2 * max(1, sum(client.nthreads().values()))
         at = {}
 
         def submit(count: int) -> list[Any]:
             out: list[Any] = []
-            while len(out) < count and (batch := next(left, None)) is not None:
+            while len(out) < count and (batch := next(batches, None)) is not None:
                 out.append(
                     client.submit(run_there, path, values, measures, rungs, batch, pure=False)
                 )

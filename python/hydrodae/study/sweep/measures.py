@@ -15,6 +15,7 @@ from hydrodae.errors import CaseError
 from hydrodae.results import Results
 from hydrodae.results.sampling import INTERVALS, NONE, Interval
 from hydrodae.study.sweep.fatigue import damage_equivalent_load, require_rainflow
+from hydrodae.study.sweep.periods import amplitude_of_samples, mean_period
 from hydrodae.support.arrays import Array
 from hydrodae.support.nearest import did_you_mean
 
@@ -43,7 +44,11 @@ TAKEN = (
 )
 #: What stands behind the name of a result for the ends of its sampling interval.
 ENDS = ("_low", "_high")
-TAKEN += ("rung", "mean_power_absorbed_mean", "mean_power_absorbed_interval")
+TAKEN += ("rung", "runs")
+TAKEN += tuple(
+    f"mean_power_absorbed{end}"
+    for end in ("_mean", "_interval", "_control", "_uncontrolled_interval")
+)
 TAKEN += tuple(
     f"{name}{end}"
     for name in ("mean_power_absorbed", "capture_width", "annual_energy")
@@ -53,6 +58,8 @@ TAKEN += tuple(
 
 #: Statistic by cycles of the load, in `hydrodae.study.sweep.fatigue`.
 FATIGUE = "damage_equivalent_load"
+#: Statistics over the time, in `hydrodae.study.sweep.periods`.
+PERIOD, AMPLITUDE = "mean_period", "amplitude"
 
 
 class MeasureError(CaseError):
@@ -92,9 +99,15 @@ class Measure:
             There is no such channel or component, or no sample after the start.
         """
         values, unit = self._samples(results)
+        first = max(self._start(results), float(results.time[0]))
+        duration = results.end_time - first
         if self.statistic == FATIGUE:
-            duration = results.end_time - max(self._start(results), float(results.time[0]))
             return damage_equivalent_load(values, duration, self.exponent, self.frequency), unit
+        if self.statistic == PERIOD:
+            return mean_period(values, float(np.mean(values)), duration), "s"
+        if self.statistic == AMPLITUDE:
+            time = results.time[-len(values) :]
+            return amplitude_of_samples(time, values, self.frequency), unit
         return STATISTICS[self.statistic](values), unit
 
     def interval(self, results: Results) -> Interval | None:
@@ -182,7 +195,7 @@ def make_measure(file: Path, name: str, table: Any) -> Measure:
     if start is not None and not _is_time(start):
         raise CaseError(f"{where}: key 'from': expected a time in s, got {start!r}")
     statistic = table.get("statistic", "mean")
-    known = [*STATISTICS, FATIGUE]
+    known = [*STATISTICS, FATIGUE, PERIOD, AMPLITUDE]
     if statistic not in known:
         raise CaseError(
             f"{where}: key 'statistic': {statistic!r} is not one of {', '.join(known)}"
@@ -198,7 +211,7 @@ def make_measure(file: Path, name: str, table: Any) -> Measure:
         statistic,
         table.get("component"),
         None if start is None else float(start),
-        **_fatigue(where, statistic, table),
+        **_numbers(where, statistic, table),
         terms=tuple(_term(where, entry) for entry in _entries(where, table)),
         unit=table.get("unit", ""),
         over=table.get("over", ""),
@@ -237,19 +250,24 @@ def _is_time(value: Any) -> bool:
     return not isinstance(value, bool) and isinstance(value, int | float) and math.isfinite(value)
 
 
-def _fatigue(where: str, statistic: str, table: dict[str, Any]) -> dict[str, float]:
-    """Keys of a fatigue load: the exponent, and the frequency that it refers to."""
+def _numbers(where: str, statistic: str, table: dict[str, Any]) -> dict[str, float]:
+    """Exponent of a fatigue load, and the frequency that it or an amplitude refers to."""
     given = {key: table[key] for key in ("exponent", "frequency") if key in table}
-    if statistic != FATIGUE:
-        if given:
-            raise CaseError(f"{where}: key {min(given)!r} belongs to statistic {FATIGUE!r}")
-        return {}
-    if "exponent" not in given:
+    owners = {"exponent": (FATIGUE,), "frequency": (FATIGUE, AMPLITUDE)}
+    for key in given:
+        if statistic not in owners[key]:
+            raise CaseError(
+                f"{where}: key {key!r} belongs to statistic {' or '.join(map(repr, owners[key]))}"
+            )
+    if statistic == AMPLITUDE and "frequency" not in given:
+        raise CaseError(f"{where}: {AMPLITUDE!r} needs 'frequency' in Hz")
+    if statistic == FATIGUE and "exponent" not in given:
         raise CaseError(f"{where}: {FATIGUE!r} needs 'exponent', the slope of the Woehler line")
     for key, value in given.items():
         if isinstance(value, bool) or not isinstance(value, int | float) or not value > 0:
             raise CaseError(f"{where}: key {key!r}: expected a number > 0, got {value!r}")
-    require_rainflow()
+    if statistic == FATIGUE:
+        require_rainflow()
     return {key: float(value) for key, value in given.items()}
 
 
@@ -282,10 +300,30 @@ def measure(results: Results, measures: tuple[Measure, ...]) -> dict[str, tuple[
     Beside NAME stand NAME_low and NAME_high, the ends of its sampling interval in an irregular
     sea; nan of a run that is too short for one.
     """
-    out = of_statistics(results.statistics)
+    values = {m.name: (*m(results), None if m.over else m.interval(results)) for m in measures}
+    return with_intervals_and_ratios(of_statistics(results.statistics), values, measures)
+
+
+def with_intervals_and_ratios(
+    found: dict[str, tuple[float, str]],
+    values: Mapping[str, tuple[float, str, Interval | None]],
+    measures: tuple[Measure, ...],
+) -> dict[str, tuple[float, str]]:
+    """Add measures: name to value and unit, with the ends of intervals, and divided by `over`.
+
+    Parameters
+    ----------
+    found : dict
+        What every run gives (`of_statistics`).
+    values : mapping
+        Value, unit and sampling interval of each measure by name.
+    measures : tuple of Measure
+    """
+    out = dict(found)
     for m in measures:
-        out[m.name] = value, unit = m(results)
-        if not m.over and (pair := m.interval(results)):
+        value, unit, pair = values[m.name]
+        out[m.name] = value, unit
+        if not m.over and pair:
             out |= _ends(m.name, *pair, unit)
     for m in measures:
         if m.over:

@@ -18,11 +18,13 @@ from hydrodae.errors import CaseError
 from hydrodae.study.sweep.journal import identity_of
 from hydrodae.study.sweep.measures import ENDS, Measure, make_measure
 from hydrodae.study.sweep.points import Point, is_number, known, read_csv, read_file, read_points
+from hydrodae.study.sweep.repetitions import KEYS, Repetitions, read_repetitions
 from hydrodae.study.sweep.rungs import DEFAULT, check_rungs
 
 #: Key of a point that says by which model of the motion it is run.
 RUNG = "rung"
 TABLES = ("case", "rungs", "grid", "list", "latin_hypercube", "table", "over", "result", "scatter")
+TABLES += KEYS
 
 
 @dataclass(frozen=True)
@@ -49,6 +51,7 @@ class Study:
     measures: tuple[Measure, ...] = ()
     scatter: Scatter | None = None
     rungs: tuple[str, ...] = DEFAULT  #: models of the motion
+    repetitions: Repetitions = field(default_factory=Repetitions)
 
     def column(self, key: str) -> str:
         """The last word of a key where that is enough, else the whole key with underscores."""
@@ -58,7 +61,9 @@ class Study:
 
     def identity(self, case: Case) -> dict[str, str]:
         """What the numbers of a point depend on, but for the point itself."""
-        return identity_of(case, self.measures, self._files_of_points(case))
+        controlled = self.repetitions.control != "none"
+        measured = (*self.measures, *((self.repetitions.seeds,) if controlled else ()))
+        return identity_of(case, measured, self._files_of_points(case))
 
     def _files_of_points(self, case: Case) -> str:
         """Lines of the files that values of the points name, as in `Scene.text_of_files`."""
@@ -91,6 +96,7 @@ def read_study(path: str | os.PathLike[str]) -> Study:
     known(file, "", given, TABLES)
     if not isinstance(given.get("case"), str):
         raise CaseError(f"{file}: key 'case': the path of a case file is needed")
+    repetitions, given = read_repetitions(file, given)
     points, dimensions = read_points(file, given)
     rungs = check_rungs(given.get("rungs", [*DEFAULT]), file)
     if rungs != DEFAULT:
@@ -101,6 +107,8 @@ def read_study(path: str | os.PathLike[str]) -> Study:
         raise CaseError(f"{file}: key 'over': expected keys of the study: {_listed(points[0])}")
     if over and not dimensions:
         raise CaseError(f"{file}: key 'over': means over repetitions need a [grid] alone")
+    if rungs != DEFAULT and set(KEYS) & set(given):
+        raise CaseError(f"{file}: keys {', '.join(map(repr, KEYS))} need the rung 'time' alone")
     study = Study(
         file,
         text,
@@ -111,6 +119,7 @@ def read_study(path: str | os.PathLike[str]) -> Study:
         tuple(make_measure(file, name, what) for name, what in _results(file, given).items()),
         _scatter(file, given.get("scatter"), points[0]),
         rungs,
+        repetitions,
     )
     _check_names(study)
     _check_scatter(study)

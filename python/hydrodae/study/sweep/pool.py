@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import ctypes
-import os
 import signal
 import sys
 import tempfile
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any
@@ -58,21 +57,23 @@ def run_points(
     values: Mapping[str, Any],
     measures: tuple[Measure, ...],
     rungs: tuple[str, ...],
-    batches: Sequence[Batch],
-    jobs: int | None,
+    batches: Iterator[Batch],
+    jobs: int,
 ) -> Iterator[Row]:
-    """Run the case at every point, as many batches at a time as `jobs` (default: all cores).
+    """Run the case at every point, as many batches at a time as `jobs`.
 
     Rows come as they are finished. No more batches wait in line than processes can take, so that
-    an interruption loses only what is at work.
+    an interruption loses only what is at work. An iterator that has ended may have more batches
+    when rows have come.
 
     Raises
     ------
     SolverError
         A process was killed.
     """
-    jobs = min(jobs or os.cpu_count() or 1, len(batches))
-    left = iter(batches)
+    first = next(batches, None)
+    if first is None:
+        return
     with (
         tempfile.TemporaryDirectory(prefix="hydrodae-") as folder,
         ProcessPoolExecutor(
@@ -82,10 +83,10 @@ def run_points(
             initargs=(folder, path, values, measures, rungs),
         ) as pool,
     ):
-        working: set[Future[list[Row]]] = set()
+        working: set[Future[list[Row]]] = {pool.submit(run_here, first)}
         try:
             while True:
-                while len(working) < 2 * jobs and (batch := next(left, None)) is not None:
+                while len(working) < 2 * jobs and (batch := next(batches, None)) is not None:
                     working.add(pool.submit(run_here, batch))
                 if not working:
                     return

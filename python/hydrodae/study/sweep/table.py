@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.special import stdtrit
 
 from hydrodae.case import Case
 from hydrodae.case.tables import unit_of
 from hydrodae.errors import CaseError
 from hydrodae.study.sweep.journal import Row
+from hydrodae.study.sweep.means import add_means, control_columns, lines_of, uncontrolled
 from hydrodae.study.sweep.measures import ENDS
 from hydrodae.study.sweep.plan import RUNG, Study, point_key
 from hydrodae.support import outputs
@@ -29,16 +29,18 @@ ENDINGS = (".nc", ".nc4", ".netcdf", ".cdf")
 def dataset(study: Study, rows: Mapping[str, Row], attributes: Mapping[str, Any]) -> xr.Dataset:
     """Every number of every run: along the keys of a grid, else along `point`.
 
-    Runs that did not complete have NaN, their `status` and `reason`. With repetitions (`over`)
-    `NAME_mean` and `NAME_interval`, half the width of the 95 % confidence interval of the mean
-    (Student's t), stand beside the values. `NAME_low` and `NAME_high` are the ends of the sampling
+    Runs that did not complete have NaN, their `status` and `reason`; a run that an interval did not
+    need has the status "not needed". With repetitions (`over`) `NAME_mean` and `NAME_interval`,
+    half the width of the 95 % confidence interval of the mean (Student's t), stand beside the
+    values. `NAME_low` and `NAME_high` are the ends of the sampling
     interval of one run (`hydrodae.results.sampling`).
     """
     import xarray as xr  # which the processes that run the points do without
 
     shape, coordinates = _axes(study)
     dimensions = tuple(coordinates) if study.dimensions else ("point",)
-    ordered = [rows[point_key(point)] for point in study.points]
+    not_run: Row = {"status": "not needed", "reason": ""}
+    ordered = [rows.get(point_key(point), not_run) for point in study.points]
     units: dict[str, str] = {}
     for row in ordered:
         units |= row.get("units", {})
@@ -50,6 +52,12 @@ def dataset(study: Study, rows: Mapping[str, Row], attributes: Mapping[str, Any]
         )
         for name, unit in units.items()
     }
+    for name, column in control_columns(ordered, shape).items():
+        variables[name] = (dimensions, column, {"units": "W"})
+    if missing := uncontrolled(ordered):
+        attributes = {**attributes, "uncontrolled": missing}
+    if study.repetitions.interval:
+        attributes = {**attributes, "interval_asked": study.repetitions.interval}
     alone = Counter(row["alone"].splitlines()[0] for row in ordered if "alone" in row)
     if alone:
         lines = [f"{n} {reason}" for reason, n in alone.most_common()]
@@ -62,7 +70,7 @@ def dataset(study: Study, rows: Mapping[str, Row], attributes: Mapping[str, Any]
             values = [point[key] for point in study.points]
             variables[study.column(key)] = ("point", _column(values), _attributes(key))
     out = xr.Dataset(variables, coordinates, dict(attributes))
-    _add_means(out, study)
+    add_means(out, study)
     _add_energy(out, study)
     return out
 
@@ -98,23 +106,6 @@ def with_unit(values: xr.DataArray, dimension: str) -> str:
 def _column(values: list[Any]) -> Any:
     array = np.array(values)
     return array if array.dtype.kind in "biufU" and array.ndim == 1 else [str(v) for v in values]
-
-
-def _add_means(out: xr.Dataset, study: Study) -> None:
-    along = [study.column(key) for key in study.over]
-    if not along:
-        return
-    numbers = [str(n) for n, v in out.data_vars.items() if np.issubdtype(v.dtype, np.floating)]
-    ends = [f"{name}{end}" for name in numbers for end in ENDS]
-    for name in [n for n in numbers if n not in ("estimated_error", "steps", *ends)]:
-        values = out[name]
-        count = values.count(along)
-        width = stdtrit(np.maximum(count - 1, 1), 0.975) * values.std(along, ddof=1)
-        mean = values.mean(along)
-        mean.attrs = values.attrs
-        interval = (width / np.sqrt(count)).where(count > 1)
-        interval.attrs = values.attrs
-        out[f"{name}_mean"], out[f"{name}_interval"] = mean, interval
 
 
 def _add_energy(out: xr.Dataset, study: Study) -> None:
@@ -177,6 +168,7 @@ def text(results: xr.Dataset) -> str:
     for line in results.attrs.get("run_alone", "").splitlines()[:5]:
         number, _, reason = line.partition(" ")
         lines.append(f"{number} of them not side by side with others: {reason}")
+    lines += lines_of(results, results.attrs)
     for name in ("mean_power_absorbed_mean", "mean_power_absorbed"):
         if name in results:
             for rung in results[RUNG].to_numpy() if RUNG in results.dims else [None]:
