@@ -17,6 +17,7 @@ from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.poses import blended
+from hydrodae.linear.air import air_of, open_outlets_at_rest
 from hydrodae.linear.kinematics import water_motion
 from hydrodae.linear.modes import Mode, find_modes
 from hydrodae.linear.reading import without_memory
@@ -67,6 +68,8 @@ class LinearModel:
         self.supports = dict(zip(model["supports"], model["support"], strict=True))
         self.notes: list[str] = model["notes"]
         self._model = model
+        self.air, shut = air_of(self, case_tables(self.case))
+        self.notes = [*self.notes, *shut, *open_outlets_at_rest(self.air)]
         # A basis of the motions that the constraints leave, coordinates in their own units.
         n = len(self.coordinates)
         self._free: Array = null_space(self.constraints) if len(self.constraints) else np.eye(n)
@@ -153,6 +156,28 @@ class LinearModel:
             if d.name in names:
                 other.damping = other.damping - d.damping * np.outer(d.row, d.row)
         return other
+
+    def with_outlets(self, slopes: Mapping[str, float]) -> LinearModel:
+        """Return the same linearised case with other slopes of outlets of chambers.
+
+        Parameters
+        ----------
+        slopes : mapping from str
+            Mass flow over drop of pressure [kg/(s Pa)] by the name of the outlet.
+        """
+        other = copy.copy(self)
+        other.air = [air.with_slopes(slopes) for air in self.air]
+        for air in other.air:
+            other._model = air.replaced(other._model)
+        return other
+
+    def drops(self, w: Array, xi: Complex) -> dict[str, Complex]:
+        """Drop of pressure (nw,) [Pa] over each outlet, from the motion (nw, n_u)."""
+        out: dict[str, Complex] = {}
+        for air in self.air:
+            each = air.pressures(self._model, w, xi) @ air.ways.T
+            out |= {one.name: each[:, k] for k, one in enumerate(air.outlets)}
+        return out
 
     def _with_laws_changed(self, names: Sequence[str], states: Sequence[int]) -> LinearModel:
         """Return a copy that does not list some forces as dampers, nor has some states."""
@@ -363,6 +388,9 @@ class LinearModel:
             self._model, w, heading, xi, multipliers, force=load, radiation=self.added(w)[1]
         )
         found.power.update({each.name: each.power(w, xi) for each in self.rotary})
+        for air in self.air:
+            found.power.update(air.powers(self._model, w, xi))
+            found = found.with_channels(air.channels(self._model, w, xi))
         return found
 
     def modes(self) -> list[Mode]:

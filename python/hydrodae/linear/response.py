@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -23,13 +23,14 @@ class Response:
     heading : float
         Direction of travel [rad].
     names : tuple of str
-        Coordinates of bodies and joints and reactions, as channels.
+        Coordinates of bodies and joints, reactions, pressures and mass flows of air, as channels.
     units : tuple of str
         Unit of each per metre of amplitude.
     values : (nw, n) complex array
         Phasors; phase zero when the crest passes the origin.
     power : dict of (nw,) arrays
-        Mean power that each damper along a joint, and each rotary take-off, takes [W/m2].
+        Mean power that each damper along a joint, rotary take-off, chamber (all its outlets) and
+        outlet ("outlets/NAME/power") takes [W/m2].
     excitation_power, radiated_power : (nw,) arrays
         Mean power from the waves, and into radiated waves [W/m2].
     """
@@ -48,6 +49,15 @@ class Response:
         if name not in self.names:
             raise CaseError(f"no response {name!r}; there are: {', '.join(self.names)}")
         return np.asarray(self.values[:, self.names.index(name)])
+
+    def with_channels(self, more: Mapping[str, Complex]) -> Response:
+        """Return it with more channels, phasors (nw,) by name."""
+        return replace(
+            self,
+            names=(*self.names, *more),
+            units=(*self.units, *map(unit_of, more)),
+            values=np.column_stack([self.values, *more.values()]),
+        )
 
 
 @dataclass(frozen=True)
@@ -159,9 +169,16 @@ def power_factor(omega: Array, k: float, c: float, tau: float) -> Array:
     return omega**2 * c * np.cos(omega * tau) - omega * k * np.sin(omega * tau)
 
 
+def moves(name: str) -> bool:
+    """Return whether a channel is a coordinate: no reaction, pressure or flow."""
+    return "/reaction_" not in name and not name.startswith(("chambers/", "outlets/"))
+
+
 def unit_of(name: str) -> str:
     """Unit of a response per metre of wave amplitude."""
     last = name.rpartition("/")[2]
+    if last in ("pressure", "mass_flow"):
+        return "Pa/m" if last == "pressure" else "kg/s/m"
     if last.startswith("reaction_force"):
         return "N/m"
     if last.startswith("reaction_moment"):

@@ -105,6 +105,14 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "that follow, and prints by how much the tables miss the symmetry (at most 2 %%)",
     )
     add.add_argument(
+        "--column",
+        metavar="NAME",
+        action="append",
+        default=[],
+        help="this body is a water column, a piston inside a hull: keep its heave only, and check "
+        "it as a piston (stiffness and long-wave force rho g S). May be repeated",
+    )
+    add.add_argument(
         "--mesh",
         metavar="[NAME=]FILE",
         action="append",
@@ -189,6 +197,7 @@ def run(args: argparse.Namespace) -> int:
             time_convention=args.time_convention,
             keep=args.keep,
             cut=args.cut,
+            columns=args.column,
             symmetric=None if args.symmetric is None else args.symmetric.split(","),
             second_order=_by_body("--second-order", args.second_order),
             band=_band(args),

@@ -11,6 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from hydrodae.hdb.checks.band import LEAST_DAMPING, Band, damping_sizes, felt_band, inside
+from hydrodae.hdb.checks.columns import column_findings, columns, hulls_alone, open_hulls
 from hydrodae.hdb.checks.drift import drift_findings
 from hydrodae.hdb.checks.energy import depth_findings, energy_findings
 from hydrodae.hdb.checks.fits import fit_findings
@@ -55,6 +56,8 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
     if modes:
         database = database.select(rigid(database.coordinates))
     judged = band or felt_band(database)
+    pistons = columns(database)
+    hulls = hulls_alone(database) if pistons else database
     return CheckReport(
         [
             _judged(judged, given=band is not None),
@@ -70,18 +73,25 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
             *energy_findings(database, judged),
             *depth_findings(database),
             *([] if _negative(database) else one_heading_findings(database)),
-            *size_findings(database),
-            *place_findings(database),
-            *row_findings(database),
+            *([] if hulls is None else [*size_findings(hulls), *place_findings(hulls)]),
+            *([] if hulls is None else row_findings(hulls)),
             *_causality(database),
             *unit_findings(database),
             *spike_findings(database, judged),
             *fit_findings(database),
-            *long_wave_findings(database, judged),
-            *hull_findings(database),
+            *_long_waves(hulls, judged, closed=not pistons),
+            *column_findings(database),
             *drift_findings(database),
         ]
     )
+
+
+def _long_waves(hulls: HydroDatabase | None, band: Band, *, closed: bool) -> list[Finding]:
+    """Checks of hulls by long waves; without hydrostatics where water columns close them."""
+    if hulls is None:
+        return []
+    seen = hulls if closed else open_hulls(hulls)
+    return [*long_wave_findings(seen, band), *hull_findings(hulls)]
 
 
 def _judged(band: Band, *, given: bool) -> Finding:

@@ -198,6 +198,8 @@ def _write_bodies(f: h5py.File, db: Tables) -> None:
         group = f.create_group(f"bodies/{body.name}")
         group.attrs["index"] = i
         group.attrs["reference_point"] = body.reference_point
+        if body.column:
+            group.attrs["column"] = True
         hs = body.hydrostatics
         if hs is not None:
             for name in Hydrostatics.__dataclass_fields__:
@@ -252,6 +254,7 @@ def _read_bodies(f: h5py.File, names: Iterable[str]) -> dict[str, Body]:
             Hydrostatics(**numbers) if known else None,
             tables.get("mesh"),
             tables.get("mode_stiffness"),
+            bool(group.attrs.get("column", False)),
         )
     return bodies
 

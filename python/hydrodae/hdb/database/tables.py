@@ -47,6 +47,8 @@ class Body:
     mesh : (n, 4, 3) array or None
         Panels of the wetted surface [m], world axes, as they were computed; triangles repeat their
         last corner. None if the source does not hold them. Nothing is computed from them.
+    column : bool
+        It is a water column: a piston of water inside a hull, not a hull itself.
     """
 
     name: str
@@ -54,6 +56,7 @@ class Body:
     hydrostatics: Hydrostatics | None = None
     mesh: Array | None = None
     mode_stiffness: Array | None = None
+    column: bool = False
 
     def __post_init__(self) -> None:
         if co.body_name(self.name) != self.name:

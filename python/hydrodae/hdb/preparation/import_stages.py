@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.checks.band import Band
 from hydrodae.hdb.checks.check import check
+from hydrodae.hdb.checks.columns import as_columns
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.all_round import closed, closing_finding, goes_round
 from hydrodae.hdb.database.coordinates import check_body, expand
@@ -66,6 +67,7 @@ class Import:
     keep: str | None = None
     cut: float | None = None
     symmetric: Sequence[str] | None = None
+    columns: Sequence[str] = ()
     second_order: dict[str, Sequence[str | Path]] = field(default_factory=dict)
     band: Band | Callable[[HydroDatabase], Band] | None = None
     data: SourceData | None = None
@@ -212,9 +214,11 @@ def add_hydrostatics(state: Import) -> None:
 
 
 def keep(state: Import) -> None:
-    """Take the `database`; leave out the coordinates that are not kept."""
+    """Take the `database`; leave out the coordinates that are not kept, and mark `columns`."""
     if state.keep is not None:
         state.database = state.database.select(expand(state.keep, state.database.coordinates))
+    if state.columns:
+        state.database = as_columns(state.database, list(state.columns))
 
 
 def mirror(state: Import) -> None:

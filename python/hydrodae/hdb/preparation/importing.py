@@ -32,6 +32,7 @@ def import_database(
     keep: str | None = None,
     cut: float | None = None,
     symmetric: Sequence[str] | None = None,
+    columns: Sequence[str] = (),
     second_order: Mapping[str, Sequence[str | Path]] | None = None,
     band: Band | Callable[[HydroDatabase], Band] | None = None,
     progress: Callable[[str], None] | None = None,
@@ -71,6 +72,9 @@ def import_database(
         Leave out the frequencies above [rad/s], before anything is estimated.
     symmetric : sequence of "y", "x", optional
         Planes y = 0, x = 0 of symmetry of the hulls, whose mirror images add headings.
+    columns : sequence of str
+        Bodies that are water columns, pistons inside a hull: only their heave is kept, and they are
+        checked as a piston.
     second_order : dict of lists of paths, optional
         Files or folders with mean drift and loads of two waves, by the body that they are of; ""
         where the files say it. Those beside the source, of the same run, are read without it.
@@ -106,6 +110,7 @@ def import_database(
         keep=keep,
         cut=cut,
         symmetric=symmetric,
+        columns=columns,
         second_order=dict(second_order or {}),
         band=band,
     )

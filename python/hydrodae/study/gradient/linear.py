@@ -69,6 +69,8 @@ def _value(
     if what.measure is None:
         return sum(power.get(name, 0.0) for name in what.take_offs(case))
     name = linear_name(what.measure)
+    if what.measure.statistic == "mean" and name in power:
+        return power[name]
     if name not in deviation:
         raise CaseError(
             f"{what.name}: the frequency domain has no channel {name!r}; there are: "

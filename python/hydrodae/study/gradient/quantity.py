@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from hydrodae.case import Case
 from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError
+from hydrodae.linear.air import absorbers
 from hydrodae.study.sweep.measures import Measure
 from hydrodae.support.arrays import Array
 
@@ -15,7 +16,7 @@ POWER = "mean_power_absorbed"
 
 @dataclass(frozen=True)
 class Quantity:
-    """Mean absorbed power, of all take-offs or of one, or a statistic of a channel.
+    """Mean absorbed power, of all take-offs and chambers or of one, or a statistic of a channel.
 
     Attributes
     ----------
@@ -28,9 +29,8 @@ class Quantity:
     measure: Measure | None = None
 
     def take_offs(self, case: Case) -> list[str]:
-        """Names of the take-offs whose power is meant."""
-        forces = case_tables(case).get("force", [])
-        names = [f["name"] for f in forces if str(f["type"]).startswith("pto_")]
+        """Names of the take-offs and chambers whose power is meant."""
+        names = absorbers(case_tables(case))
         _, _, one = self.name.partition(".")
         chosen = [name for name in names if one in ("", name)]
         if not chosen:

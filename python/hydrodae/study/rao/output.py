@@ -12,7 +12,7 @@ import numpy as np
 
 from hydrodae.errors import CaseError
 from hydrodae.linear import Response
-from hydrodae.study.rao.text import NOTHING, coordinates, short_name
+from hydrodae.study.rao.text import NOTHING, coordinates, name_of_power, short_name
 from hydrodae.support import outputs
 from hydrodae.support.arrays import Array
 from hydrodae.support.units import displayed
@@ -164,7 +164,7 @@ def draw(response: Response, title: str, names: Sequence[str] | None = None) -> 
         factor, unit = displayed(units[name])
         panels.setdefault(unit, []).append((short_name(name), factor * np.abs(response[name])))
     for name, power in response.power.items():
-        panels.setdefault("kW/m2", []).append((f"{name} mean power", 1e-3 * power))
+        panels.setdefault("kW/m2", []).append((f"{name_of_power(name)} mean power", 1e-3 * power))
     for unit, lines in panels.items():
         least = NOTHING * max(float(np.abs(values).max()) for _, values in lines)
         panels[unit] = [line for line in lines if np.abs(line[1]).max() > least]

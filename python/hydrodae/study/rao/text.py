@@ -26,8 +26,22 @@ def short_name(name: str) -> str:
     return ".".join(name.split("/")[1:])
 
 
+def name_of_power(name: str) -> str:
+    """Return the name of a power as a person reads it.
+
+    Examples
+    --------
+    >>> name_of_power("pto"), name_of_power("outlets/turbine/power_shaft")
+    ('pto', 'outlet turbine, shaft')
+    """
+    if not name.startswith("outlets/"):
+        return name
+    _, outlet, kind = name.split("/")
+    return f"outlet {outlet}{kind.removeprefix('power').replace('_', ', ')}"
+
+
 def coordinates(response: Response) -> list[str]:
-    """Names of the responses of bodies and joints, without the reactions."""
+    """Names of the responses of bodies, joints and air, without the reactions."""
     return [name for name in response.names if "/reaction_" not in name]
 
 
@@ -81,7 +95,7 @@ def table(response: Response, chosen: Response) -> str:
         if "/reaction_" not in name:
             rows.append((short_name(name), unit, np.abs(response[name]), np.abs(chosen[name])))
     for name, power in response.power.items():
-        rows.append((f"{name} mean power", "W/m2", power, chosen.power[name]))
+        rows.append((f"{name_of_power(name)} mean power", "W/m2", power, chosen.power[name]))
     largest: dict[str, float] = {}
     for _, unit, values, _ in rows:
         largest[unit] = max(largest.get(unit, 0.0), float(np.abs(values).max()))
@@ -152,5 +166,7 @@ def sea_table(
         held = value <= NOTHING * largest[units.get(name, "m")]
         factor, unit = displayed(units.get(name, "m"))
         lines.append(f"  {name:40} {0.0 if held else factor * value:.5g} {unit}")
-    lines += [f"  mean power of {name:26} {value:.5g} W" for name, value in power.items()]
+    lines += [
+        f"  mean power of {name_of_power(name):26} {value:.5g} W" for name, value in power.items()
+    ]
     return "\n".join(lines)

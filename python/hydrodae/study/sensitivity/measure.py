@@ -11,6 +11,7 @@ import numpy as np
 from hydrodae.case.case import CaseLike, read_case
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.linear import LinearModel
+from hydrodae.linear.response import moves
 from hydrodae.study.sensitivity.variants import variants
 from hydrodae.support.arrays import Array
 
@@ -128,7 +129,7 @@ def _measure(
         raise CaseError("--result rao: give --periods")
     omega = 2.0 * np.pi / np.asarray(periods, dtype=float)
     first = model.response(omega, heading)
-    names = list(channels) or [n for n in first.names if "/reaction_" not in n]
+    names = list(channels) or [n for n in first.names if moves(n)]
     for name in names:
         first[name]  # raises for an unknown one, with those that there are
     largest = {unit: 0.0 for unit in first.units}

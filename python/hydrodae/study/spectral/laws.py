@@ -10,11 +10,11 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 
 from hydrodae.errors import CaseError
 from hydrodae.study.spectral.factors import Law
 from hydrodae.support.arrays import Array
+from hydrodae.support.curve import monotone_curve
 
 Table = Mapping[str, Any]
 
@@ -83,7 +83,7 @@ def _general(force: Table) -> Law | None:
         )
     if n == 1.0 and not constant and not at.size and not limited:
         return None
-    curve = _curve(at, force["damper_load"]) if at.size else None
+    curve = monotone_curve(at, force["damper_load"]) if at.size else None
 
     def law(v: Array) -> Array:
         load = c * np.abs(v) ** (n - 1.0) * v
@@ -93,22 +93,6 @@ def _general(force: Table) -> Law | None:
             load = load + curve(v)
         limit = np.minimum(most, power / np.maximum(np.abs(v), 1e-300))
         return np.asarray(np.clip(load, -limit, limit))
-
-    return law
-
-
-def _curve(at: Array, load: Any) -> Law:
-    """Through measured points as cpp/hydrodae/math/curve.h, straight beyond their ends."""
-    y = np.asarray(load, dtype=float)
-    chord = np.diff(y) / np.diff(at)
-    slope = np.asarray(PchipInterpolator(at, y).derivative()(at))
-    slope[[0, -1]] = chord[[0, -1]]
-    inside = CubicHermiteSpline(at, y, slope)
-
-    def law(v: Array) -> Array:
-        within = np.clip(v, at[0], at[-1])
-        beyond = v - within
-        return np.asarray(inside(within) + beyond * np.where(beyond < 0.0, slope[0], slope[-1]))
 
     return law
 

@@ -9,6 +9,7 @@ import numpy as np
 from hydrodae.case.contents import case_tables
 from hydrodae.linear import LinearModel
 from hydrodae.linear.bodies import Bodies
+from hydrodae.study.spectral.air import Outlet
 from hydrodae.study.spectral.collect import joint_loads, morison_loads, viscous_loads
 from hydrodae.study.spectral.loads import AlongJoint, Load
 from hydrodae.study.spectral.solve import Equivalents
@@ -47,10 +48,11 @@ def dampings(loads: list[Load], found: Equivalents) -> dict[str, Any]:
     return out
 
 
-def all_notes(model: LinearModel, loads: list[Load]) -> list[str]:
+def all_notes(model: LinearModel, loads: list[Load], outlets: list[Outlet]) -> list[str]:
     """Notes of the linear model but for what is linearised in the sea, and those of the loads."""
     here = ["Morison elements: every", "quadratic drag of Morison", "quadratic viscous_damping is"]
     here += [f"has of '{load.name}' the slope" for load in loads]
+    here += [f"has of outlet '{outlet.name}' the slope" for outlet in outlets]
     notes = [note for note in model.notes if not any(words in note for words in here)]
     for load in loads:
         law = load.equivalent

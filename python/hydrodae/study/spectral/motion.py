@@ -15,8 +15,10 @@ from numpy.typing import NDArray
 from hydrodae.case.case import CaseLike
 from hydrodae.errors import CaseError
 from hydrodae.linear import LinearModel, Response
+from hydrodae.linear.response import moves
 from hydrodae.linear.sea import in_waves, wave_components
 from hydrodae.study.spectral import text
+from hydrodae.study.spectral.air import air_notes, curved_outlets, turbine_powers
 from hydrodae.study.spectral.linearise import all_notes, dampings, mean_powers, nonlinear_loads
 from hydrodae.study.spectral.output import write
 from hydrodae.study.spectral.seeds import Seeds, comparison, time_domain
@@ -46,11 +48,15 @@ class Spectral:
     rate : dict
         Standard deviation of the rates of coordinates and joints [m/s, rad/s].
     power : dict
-        Mean power that each force along a joint and each viscous damping takes [W].
+        Mean power that each force along a joint, viscous damping, chamber (all its outlets) and
+        outlet takes; of a turbine with an efficiency also by `outlets/NAME/power_turbine`,
+        `power_shaft` and `power_electric` [W].
     damping : dict
         Linear equivalents by name: c of a force along a joint [N s/m, N m s]; of viscous damping
         (6, 6), its quadratic part [N s/m, N s, N m s]; of a Morison element (segments, 3, 3)
         in world axes [N s/m], over the velocity of the water against the body.
+    outlet : dict
+        Mass flow over drop of pressure of each outlet whose slope depends on it [kg/(s Pa)].
     iterations : int
     change : float
         Relative change of the equivalents in the last iteration [-].
@@ -69,6 +75,7 @@ class Spectral:
     rate: dict[str, float]
     power: dict[str, float]
     damping: dict[str, Any]
+    outlet: dict[str, float]
     iterations: int
     change: float
     time: float
@@ -189,7 +196,8 @@ def spectral(
     Linear loads replace drag of Morison elements, quadratic viscous damping, friction along joints
     and power take-offs that are nonlinear in the rate. They miss these least in the mean square,
     for the motion that follows with them: Gaussian in a sea of many components, harmonic (Lorentz)
-    in one of a single one. The drag of Morison elements is that of the motion
+    in one of a single one. Orifices and turbines of chambers have the slope that takes the same
+    power from the air. The drag of Morison elements is that of the motion
     of the water against the body, and so excites it as well.
 
     Parameters
@@ -234,9 +242,11 @@ def spectral(
         )
     model = LinearModel.of(case, set)
     loads, model = nonlinear_loads(model)
+    outlets = curved_outlets(model)
     start = perf_counter()
     waves = wave_components(model.case)
-    found = equivalents(model, loads, waves, tolerance, iterations)
+    found = equivalents(model, loads, waves, tolerance, iterations, outlets)
+    model = model.with_outlets(found.slopes)
     responses: list[tuple[NDArray[np.intp], Response]] = []
 
     def respond(omega: Array, heading: float) -> Response:
@@ -259,11 +269,12 @@ def spectral(
         units=units,
         values=values,
         standard_deviation=deviation,
-        rate={name: float(rates[k]) for k, name in enumerate(names) if "/reaction_" not in name},
-        power=power | mean_powers(loads, found),
+        rate={name: float(rates[k]) for k, name in enumerate(names) if moves(name)},
+        power=power | mean_powers(loads, found) | turbine_powers(model, found.drops),
         damping=dampings(loads, found),
+        outlet=found.slopes,
         iterations=found.iterations,
         change=found.change,
         time=perf_counter() - start,
-        notes=all_notes(model, loads),
+        notes=[*all_notes(model, loads, outlets), *air_notes(model, found.drops)],
     )

@@ -17,6 +17,7 @@ from hydrodae.errors import CaseError
 from hydrodae.hdb.labels import DOFS
 from hydrodae.results import Results
 from hydrodae.simulation import run
+from hydrodae.study.rao.text import name_of_power
 from hydrodae.support import processes
 from hydrodae.support.units import displayed
 
@@ -34,7 +35,7 @@ class Seeds:
     motion, rate : (n_seeds, n) arrays
         Standard deviations about the mean of each run.
     power : dict of (n_seeds,) arrays
-        Mean power of each power take-off [W].
+        Mean power of each power take-off, chamber and outlet by the names of `Spectral.power` [W].
     solver_time : (n_seeds,) array
         [s].
     """
@@ -124,12 +125,17 @@ def _run_one(
     results = run(case, set={**seeds, "solver.accuracy": "none"})
     late = results.time >= settle
     series = [_series(results, name) for name in names]
-    take_offs = results.channels("forces/*/power_absorbed")
+    powers = {
+        name.split("/")[1]: name
+        for group in ("forces", "chambers")
+        for name in results.channels(f"{group}/*/power_absorbed")
+    }
+    powers |= {name: name for name in results.channels("outlets/*/power*")}
     return {
         "motion": [float(np.std(x[late])) for x, _ in series],
         "rate": [float(np.std(v[late])) for _, v in series],
         "power": {
-            name.split("/")[1]: float(np.mean(results[name].values[late])) for name in take_offs
+            name: float(np.mean(results[channel].values[late])) for name, channel in powers.items()
         },
         "time": float(results.statistics["solver_time"]),
     }
@@ -164,7 +170,7 @@ def comparison(found: Any, seeds: Seeds) -> str:
         if name in found.power and values.mean() != 0.0:
             here = found.power[name]
             lines.append(
-                f"  {'power of ' + name:32} {here:11.4g} {values.mean():11.4g} "
+                f"  {'power of ' + name_of_power(name):32} {here:11.4g} {values.mean():11.4g} "
                 f"{100 * (here / values.mean() - 1):+10.1f}% {'':9}  W"
             )
     total = float(seeds.solver_time.sum())

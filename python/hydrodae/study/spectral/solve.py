@@ -9,6 +9,7 @@ import numpy as np
 from hydrodae.errors import CaseError
 from hydrodae.linear import LinearModel
 from hydrodae.linear.kinematics import water_motion
+from hydrodae.study.spectral.air import Outlet
 from hydrodae.study.spectral.fixed_point import Mixing
 from hydrodae.study.spectral.loads import Load, Motion
 from hydrodae.support.arrays import Array, Complex
@@ -31,6 +32,10 @@ class Equivalents:
     iterations : int
     change : float
         Of B in the last iteration, relative to its largest entry [-].
+    slopes : dict
+        G of each outlet of a chamber whose slope depends on the pressure [kg/(s Pa)].
+    drops : dict of Motion
+        Drop of pressure over each outlet of a chamber [Pa].
     """
 
     factors: tuple[Array, ...]
@@ -39,10 +44,17 @@ class Equivalents:
     force: Complex
     iterations: int
     change: float
+    slopes: dict[str, float]
+    drops: dict[str, Motion]
 
 
 def equivalents(
-    model: LinearModel, loads: list[Load], waves: Array, tolerance: float, most: int
+    model: LinearModel,
+    loads: list[Load],
+    waves: Array,
+    tolerance: float,
+    most: int,
+    outlets: list[Outlet],
 ) -> Equivalents:
     """Iterate linear equivalents and motion until they agree.
 
@@ -57,6 +69,8 @@ def equivalents(
         Change of B that ends the iteration, relative to the largest entry of each load.
     most : int
         Largest number of iterations.
+    outlets : list of Outlet
+        Of chambers, whose slope depends on the pressure.
 
     Raises
     ------
@@ -65,29 +79,44 @@ def equivalents(
     """
     w, amplitude = waves[:, 0], waves[:, 2]
     free, iw = model.free, 1j * waves[:, 0][:, None]
-    z = free.T @ model.dynamic_stiffness_at(w) @ free
+    z = free.T @ (model.dynamic_stiffness_at(w) - model.late(w)) @ free
     force = _excitation(model, waves)
     water = [water_velocity(model, load, waves) for load in loads]
     factors = [np.zeros((len(load.map), *2 * (load.map.shape[1],))) for load in loads]
+    factors += [np.zeros((1, 1, 1)) for _ in outlets]
     change, mixing = 0.0, Mixing()
     for iteration in range(1, most + 1):
-        damping, drag = _together(model, loads, factors, water, w.size)
-        reduced = z + iw[:, :, None] * (free.T @ damping @ free)
+        own = factors[: len(loads)]
+        slopes = _slopes(outlets, factors[len(loads) :])
+        late = model.with_outlets(slopes) if outlets else model
+        damping, drag = _together(model, loads, own, water, w.size)
+        reduced = z + free.T @ (late.late(w) + iw[:, :, None] * damping) @ free
         xi = np.linalg.solve(reduced, ((force + drag) @ free)[:, :, None])[:, :, 0] @ free.T
         motions = [
             _motion(load, flow, iw * xi, amplitude) for load, flow in zip(loads, water, strict=True)
         ]
+        drops = {
+            name: motion_of((drop * amplitude)[None, :, None])
+            for name, drop in late.drops(w, xi).items()
+        }
         found = [load.equivalent(motion) for load, motion in zip(loads, motions, strict=True)]
+        found += [outlet(drops[outlet.name]) for outlet in outlets]
         change = max(map(_change, factors, found), default=0.0)
         if change <= tolerance:
             return Equivalents(
-                tuple(factors), tuple(motions), damping, drag, iteration, float(change)
+                tuple(own), tuple(motions), damping, drag, iteration, float(change), slopes, drops
             )
         factors = mixing.step(factors, found)
+    names = [each.name for each in (*loads, *outlets)]
     raise CaseError(
-        f"the linear equivalents of {', '.join(load.name for load in loads)} did not settle in "
+        f"the linear equivalents of {', '.join(names)} did not settle in "
         f"{most} iterations (last change {change:.1e}): run the case in the time domain"
     )
+
+
+def _slopes(outlets: list[Outlet], factors: list[Array]) -> dict[str, float]:
+    """G of outlets by name."""
+    return {one.name: float(g[0, 0, 0]) for one, g in zip(outlets, factors, strict=True)}
 
 
 def _excitation(model: LinearModel, waves: Array) -> Complex:

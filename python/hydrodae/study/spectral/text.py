@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from hydrodae.study.rao.text import NOTHING, short_name
+from hydrodae.study.rao.text import NOTHING, name_of_power, short_name
 from hydrodae.support.units import displayed
 
 
@@ -33,9 +33,24 @@ def table(found: Any) -> str:
             f"  {short_name(name):38} {factor * value:12.5g} {factor * rate:12.5g}  "
             f"{unit}, {unit}/s"
         )
-    lines += [f"mean power of {name:26} {value:.5g} W" for name, value in found.power.items()]
+    lines += _air(found)
+    lines += [
+        f"mean power of {name_of_power(name):26} {value:.5g} W"
+        for name, value in found.power.items()
+    ]
     lines += [f"damping of {name}: {_damping(value)}" for name, value in found.damping.items()]
+    lines += [f"slope of outlet {name}: {g:.5g} kg/(s Pa)" for name, g in found.outlet.items()]
     return "\n".join(lines)
+
+
+def _air(found: Any) -> list[str]:
+    """Standard deviations of pressures and mass flows."""
+    units = {n: u.removesuffix("/m") for n, u in zip(found.names, found.units, strict=True)}
+    return [
+        f"  {short_name(name):38} {found.standard_deviation[name]:12.5g} {'':12}  {units[name]}"
+        for name in found.names
+        if name.startswith(("chambers/", "outlets/"))
+    ]
 
 
 def _damping(value: Any) -> str:

@@ -14,6 +14,7 @@ from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError
 from hydrodae.hdb.relations.dispersion import group_velocity
 from hydrodae.linear import LinearModel, without_memory
+from hydrodae.linear.air import absorbers
 from hydrodae.linear.sea import wave_components
 from hydrodae.simulation import run
 from hydrodae.study.spectral import spectral
@@ -112,16 +113,16 @@ def _spectral(case: Case, measures: tuple[Measure, ...]) -> Found:
 def _linear(
     case: Case, measures: tuple[Measure, ...], deviation: dict[str, float], power: dict[str, float]
 ) -> Found:
-    """Standard deviations of what is measured, and the powers of the take-offs."""
+    """Standard deviations of what is measured, and mean powers of take-offs and of air."""
     found: Found = {}
-    forces = case_tables(case).get("force", [])
-    takes = [f["name"] for f in forces if str(f.get("type", "")).startswith("pto_")]
-    each = {name: power[name] for name in takes if name in power}
+    each = {name: power[name] for name in absorbers(case_tables(case)) if name in power}
     if each:
         found["mean_power_absorbed"] = (sum(each.values()), "W")
         found |= {f"mean_power_absorbed.{name}": (value, "W") for name, value in each.items()}
     for wanted in measures:
         value = deviation.get(linear_name(wanted))
+        if wanted.statistic == "mean" and wanted.channel in power and not wanted.over:
+            found[wanted.name] = (power[wanted.channel], "W")
         if wanted.statistic == "std" and value is not None and not wanted.over:
             found[wanted.name] = (value, unit_of(wanted))
     return found
@@ -140,6 +141,10 @@ def unit_of(wanted: Measure) -> str:
     turning = ("angle", "rotation", "roll", "pitch", "yaw")
     if last.startswith("reaction"):
         return "N m" if "moment" in last else "N"
+    if last in ("pressure", "mass_flow"):
+        return "Pa" if last == "pressure" else "kg/s"
+    if last.startswith("power"):
+        return "W"
     base = "rad" if last.startswith(turning) else "m"
     return f"{base}/s" if last.endswith("rate") else base
 
