@@ -3,9 +3,9 @@
     .venv/bin/python tests/benchmark/auto_choice.py [CASE ...] [--repeat 3] [--end-time S]
 
 Runs each case (by default those of the repository that need no further data) by auto, radau,
-explicit_rk and ida at rtol 1e-2 to 1e-9, as `hydrodae chart` does. The cost of a method at an error
-is that of its cheapest run with no larger error; a row lists auto's cost over the lowest of all, for
-errors of 1e-2 to 1e-8, with the best method in brackets.
+explicit_rk and ida at rtol 1e-2 to 1e-9, as `hydrodae chart` does. The cost of a method at an
+error is that of its cheapest run with no larger error; a row lists auto's cost over the lowest of
+all, for errors of 1e-2 to 1e-8, with the best method in brackets.
 """
 
 from __future__ import annotations
