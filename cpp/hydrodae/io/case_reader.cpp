@@ -206,7 +206,8 @@ read_database(model::Scene& scene, const std::string& directory, const std::stri
   const bool waves = !scene.waves.empty();
   const std::string& radiation = scene.hydro->radiation;
   const bool judged = waves && (scene.hydro->axes == "yaw" || radiation == "exponential");
-  const HydroTables tables{waves, judged || radiation == "constant", radiation == "convolution"};
+  const HydroTables tables{waves, judged || radiation == "constant", radiation == "convolution",
+                           waves && scene.second_order.has_value()};
   read_file(scene, directory, key, path, what, [&](const std::string& whole) {
     SharedHydroFile found = shared_hydro_file(whole, tables);
     out = std::move(found.database);

@@ -1,0 +1,1 @@
+#include "hydrodae/build/pair_loads.h"

@@ -1,0 +1,1 @@
+#include "hydrodae/water/slow_drift.h"
