@@ -115,6 +115,7 @@ system::System build(const model::Scene& scene, const Sea& sea, bool with_excita
   if (with_excitation) {
     note_axes(scene, s);
     add_sea(scene, sea, s);
+    add_second_order(scene, sea, s);
   }
   return s;
 }

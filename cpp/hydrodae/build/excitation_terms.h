@@ -20,6 +20,9 @@ struct Meeting {
   Vector3 point = Vector3::Zero(), database_point = Vector3::Zero(); ///< phases are about these [m]
 };
 
+/// How each hydrodynamic body meets the waves (sea.cpp).
+std::vector<Meeting> meetings(const model::Scene& scene, const system::System& system);
+
 /// Does the excitation of a body follow a yaw that changes: by itself, or by roll and pitch?
 inline bool follows_yaw(const system::System& s, const system::HydroBody& hb) {
   return s.hydro.axes == system::HydroAxes::yaw &&

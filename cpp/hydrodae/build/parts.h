@@ -99,6 +99,9 @@ void set_hydrostatics(const model::Scene& scene, system::System& system);
 /// ModelError.
 void add_sea(const model::Scene& scene, const Sea& sea, system::System& system);
 
+/// Loads of pairs of waves (second_order.cpp); needs `add_hydro`. Throws ModelError.
+void add_second_order(const model::Scene& scene, const Sea& sea, system::System& system);
+
 /// Gauges of the elevation, and the waves that they see (gauges.cpp); behind the markers.
 void add_gauges(const model::Scene& scene, const Sea& sea, system::System& system);
 

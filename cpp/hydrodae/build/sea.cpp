@@ -18,18 +18,6 @@ namespace {
 
 std::string degrees(double angle) { return number_text(angle * 180.0 / pi) + " deg"; }
 
-std::vector<Meeting> meetings(const model::Scene& scene, const system::System& s) {
-  std::vector<Meeting> out(s.hydro.bodies.size());
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const system::HydroBody& hb =
-        s.hydro.bodies[static_cast<std::size_t>(s.hydro.bodies[i].carrier)];
-    const system::BodyData& b = s.bodies[static_cast<std::size_t>(hb.body)];
-    out[i] = {hb.yaw, follows_yaw(s, hb), scene.sea.phase == "fixed" ? b.position : b.reference,
-              b.reference};
-  }
-  return out;
-}
-
 /// Refuses components that the database does not cover.
 void check_coverage(const hydro::Database& db, const sea::Wave& wave,
                     const std::vector<sea::Component>& components,
@@ -238,6 +226,18 @@ std::vector<water::Excitation::Body> wave_loads(const model::Scene& scene, const
 }
 
 } // namespace
+
+std::vector<Meeting> meetings(const model::Scene& scene, const system::System& s) {
+  std::vector<Meeting> out(s.hydro.bodies.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const system::HydroBody& hb =
+        s.hydro.bodies[static_cast<std::size_t>(s.hydro.bodies[i].carrier)];
+    const system::BodyData& b = s.bodies[static_cast<std::size_t>(hb.body)];
+    out[i] = {hb.yaw, follows_yaw(s, hb), scene.sea.phase == "fixed" ? b.position : b.reference,
+              b.reference};
+  }
+  return out;
+}
 
 Sea draw_sea(const model::Scene& scene) {
   Sea out;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "hydrodae/core/types.h"
+#include "hydrodae/hydro/second_order.h"
 
 namespace hydrodae::hydro {
 
@@ -76,6 +77,7 @@ struct Database {
   std::vector<Eigen::MatrixXcd> froude_krylov; ///< its part; empty where only the sum is known
   std::vector<MatrixX> added_mass, damping;    ///< A(w), B(w): per frequency (n, n)
   std::optional<RadiationKernel> kernel;       ///< likewise, and where the file holds one
+  std::vector<SecondOrderTable> second_order;  ///< likewise; at most one of a kind
 };
 
 } // namespace hydrodae::hydro

@@ -207,7 +207,8 @@ read_database(model::Scene& scene, const std::string& directory, const std::stri
   const bool waves = !scene.waves.empty();
   const model::RadiationRung& radiation = scene.hydro->rung();
   const bool judged = waves && (scene.hydro->axes == "yaw" || radiation.fit);
-  const HydroTables tables{waves, judged || radiation.tables, radiation.kernel};
+  const HydroTables tables{waves, judged || radiation.tables, radiation.kernel,
+                           waves && scene.second_order.has_value()};
   read_file(scene, directory, key, path, what, [&](const std::string& whole) {
     SharedHydroFile found = shared_hydro_file(whole, tables);
     out = std::move(found.database);

@@ -222,6 +222,45 @@ std::vector<MatrixX> read_matrices(const Input& file, const std::string& dataset
   return out;
 }
 
+/// One kind of loads of pairs of waves.
+hydro::SecondOrderTable read_second_order(const Input& file, const std::string& kind,
+                                          const std::set<std::string>& coordinates) {
+  const std::string group = "/second_order/" + kind;
+  if (kind != "mean" && kind != "difference" && kind != "sum")
+    file.refuse(group, "is none of mean, difference and sum");
+  hydro::SecondOrderTable table;
+  table.kind = kind;
+  table.coordinates = file.labels(group + "/coordinates");
+  table.method = file.labels(group + "/method");
+  const auto vector = [&](const std::string& name) {
+    const std::vector<double> list = file.list(group + "/" + name);
+    return VectorX(Eigen::Map<const VectorX>(list.data(), static_cast<Eigen::Index>(list.size())));
+  };
+  table.omega = vector("omega");
+  table.heading1 = vector("heading1");
+  table.heading2 = vector("heading2");
+  for (const std::string& label : label_set(file, group + "/coordinates", table.coordinates))
+    if (!coordinates.contains(label))
+      file.refuse(group + "/coordinates", in_quotes(label) + " is not in /coordinates");
+  if (table.coordinates.empty() || table.method.size() != table.coordinates.size())
+    file.refuse(group + "/method", "must name the method of each of the coordinates");
+  if (table.omega.size() == 0 || !(table.omega[0] > 0.0) ||
+      !std::is_sorted(table.omega.begin(), table.omega.end(), std::less_equal<>()))
+    file.refuse(group + "/omega", "must be ascending frequencies > 0 rad/s");
+  if (table.heading1.size() == 0 || table.heading1.size() != table.heading2.size())
+    file.refuse(group + "/heading2", "must be as long as heading1, and not empty");
+  const auto nw = static_cast<std::size_t>(table.omega.size());
+  std::vector<std::size_t> shape(table.one_axis() ? 1 : 2, nw);
+  shape.push_back(static_cast<std::size_t>(table.heading1.size()));
+  shape.push_back(table.coordinates.size());
+  table.values = file.complex_table(group + "/values", shape);
+  for (const double truth : file.table(group + "/computed", shape))
+    table.computed.push_back(truth != 0.0);
+  if (file.has_attribute(group, "source"))
+    table.source = file.text(group, "source");
+  return table;
+}
+
 void read_frequencies(const Input& file, hydro::Database& database) {
   const std::vector<double> omega = file.list("/omega");
   database.omega = Eigen::Map<const VectorX>(omega.data(), static_cast<Eigen::Index>(omega.size()));
@@ -254,6 +293,9 @@ hydro::Database read_hydro_file(const std::string& path, const HydroTables& tabl
     read_frequencies(file, database);
   if (tables.excitation)
     read_excitation(file, database);
+  if (tables.second_order)
+    for (const std::string& kind : file.members("/second_order"))
+      database.second_order.push_back(read_second_order(file, kind, coordinates));
   if (tables.kernel && file.has_object("/radiation_kernel"))
     database.kernel = read_kernel(file, coordinates);
   if (tables.radiation) {

@@ -9,8 +9,9 @@ namespace hydrodae::io {
 /// Which tables over frequency to read along.
 struct HydroTables {
   bool excitation = false;
-  bool radiation = false; ///< A(w) and B(w)
-  bool kernel = false;    ///< K(t), if the file holds one
+  bool radiation = false;    ///< A(w) and B(w)
+  bool kernel = false;       ///< K(t), if the file holds one
+  bool second_order = false; ///< loads of pairs of waves, if the file holds them
   bool operator==(const HydroTables&) const = default;
 };
 

@@ -141,6 +141,7 @@ void check(const Scene& scene) {
   check_parts(scene);
   if (scene.hydro && scene.database)
     check_database(scene);
+  check_second_order(scene);
   for (const PoseTable& table : scene.pose_tables)
     check_pose_table(scene, table);
 }

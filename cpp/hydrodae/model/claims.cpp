@@ -68,6 +68,28 @@ void claim_table(const Scene& scene, const PoseTable& table, std::vector<Claim>&
                  "the pose table " + in_quotes(table.name), "use one table with all poses"});
 }
 
+/// Loads of second order: a mesh in waves, and axes that the body carries, hold a part of each.
+void claim_second_order(const Scene& scene, const Body& body, std::vector<Claim>& out) {
+  const std::vector<Effect> all = {mean_drift, slow_drift, sum_force};
+  const std::string key = "second_order.loads";
+  if (body.waves_by_mesh())
+    out.push_back({body.name, all, "body." + body.name + ".froude_krylov",
+                   "its mesh (key 'froude_krylov')", "use froude_krylov = \"linear\"", true});
+  if (scene.hydro && scene.hydro->axes == "body")
+    out.push_back({body.name, all, "hydro.axes", "axes = \"body\"", "use axes = \"mean\"", true});
+  std::vector<Effect> own;
+  if (scene.second_order->has("sum"))
+    own.push_back(sum_force);
+  if (scene.second_order->loads != std::vector<std::string>{"sum"})
+    own.push_back(mean_drift);
+  if (scene.second_order->has("newman") || scene.second_order->has("difference"))
+    own.push_back(slow_drift);
+  out.push_back({body.name, own, key, "the tables of [second_order]",
+                 body.waves_by_mesh()
+                     ? "use froude_krylov = \"linear\", or leave out [second_order]"
+                     : "use axes = \"mean\", or leave out [second_order]"});
+}
+
 /// An element that is half inside a mesh with the load of the undisturbed waves has it twice there.
 /// Whether the panels of a database left the element out, no one here knows: a note names it.
 void claim_inertia(const Scene& scene, const water::Morison& m, std::vector<Claim>& out) {
@@ -99,6 +121,12 @@ std::string_view name_of(Effect effect) {
     return "added mass";
   case radiation:
     return "radiation damping";
+  case mean_drift:
+    return "mean drift";
+  case slow_drift:
+    return "slow drift";
+  case sum_force:
+    return "sum force";
   }
   return "";
 }
@@ -111,6 +139,9 @@ std::vector<Claim> claims(const Scene& scene) {
     claim_table(scene, table, out);
   for (const water::Morison& m : scene.morison)
     claim_inertia(scene, m, out);
+  for (const Body& body : scene.bodies)
+    if (scene.second_order && body.hydro && !body.part)
+      claim_second_order(scene, body, out);
   return out;
 }
 

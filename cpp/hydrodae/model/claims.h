@@ -10,7 +10,16 @@
 
 namespace hydrodae::model {
 
-enum class Effect { buoyancy, froude_krylov, diffraction, added_mass, radiation };
+enum class Effect {
+  buoyancy,
+  froude_krylov,
+  diffraction,
+  added_mass,
+  radiation,
+  mean_drift,
+  slow_drift,
+  sum_force
+};
 std::string_view name_of(Effect effect); ///< as a message names it
 
 /// An element models these effects on a body.

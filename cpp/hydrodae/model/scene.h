@@ -41,6 +41,7 @@
 #include "hydrodae/model/mode.h"
 #include "hydrodae/model/pose_table.h"
 #include "hydrodae/model/radiation.h"
+#include "hydrodae/model/second_order.h"
 #include "hydrodae/sea/gauge.h"
 #include "hydrodae/sea/wave.h"
 #include "hydrodae/water/morison.h"
@@ -365,6 +366,7 @@ struct Scene {
   std::map<std::string, FilePlace> places; ///< of all keys that are given, by their path
   std::vector<Controller> controllers;
   std::vector<sea::Gauge> gauges;
+  std::optional<SecondOrder> second_order;
 };
 
 /// Cross-checks that need more than one entry: names exist and are unique, masses and inertias are

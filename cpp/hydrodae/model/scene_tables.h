@@ -18,6 +18,7 @@ template <class Visit> void for_each_table(const Visit& visit) {
   visit("pose_table", &Scene::pose_tables);
   visit("sea", &Scene::sea);
   visit("wave", &Scene::waves);
+  visit("second_order", &Scene::second_order);
   visit("body", &Scene::bodies);
   visit("mode", &Scene::modes);
   visit("attachment", &Scene::attachments);

@@ -213,6 +213,7 @@ System bare_system(const model::Scene& scene) {
     settle(scene, s);
     build::note_axes(scene, s);
     build::add_sea(scene, sea, s);
+    build::add_second_order(scene, sea, s);
   }
   return s;
 }
