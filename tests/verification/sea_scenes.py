@@ -34,7 +34,10 @@ def strut(
     if depth is not None:
         environment["water_depth"] = depth
     tables = made(
-        [body("post", [], 100.0, [0.0, 0.0, -5.0]), body("idle", ["surge"], 1.0, [0.0, 50.0, 0.0])],
+        [
+            body("post", "fixed", 100.0, [0.0, 0.0, -5.0]),
+            body("idle", ["surge"], 1.0, [0.0, 50.0, 0.0]),
+        ],
         end,
         environment=environment,
         morison=[member],

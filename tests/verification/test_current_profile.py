@@ -29,7 +29,7 @@ def test_the_drag_is_that_of_its_height(middle: float) -> None:
     results = hydrodae.run(strut(sea={"current_profile": PROFILE}, strut=ends, end=1.0))
     u = velocity(middle)
     expected = HALF * 0.2 * float(np.linalg.norm(u)) * u
-    found = results["forces/water/strut/force"].to_numpy()[-1]
+    found = results["forces/strut/post/force"].to_numpy()[-1]
     np.testing.assert_allclose(found, expected, rtol=1e-10, atol=1e-12)
 
 
@@ -37,7 +37,7 @@ def test_equal_rows_are_a_uniform_current_in_waves() -> None:
     rows = [[0.0, 0.8, 20.0], [-3.0, 0.8, 20.0], [-50.0, 0.8, 20.0]]
     flow = [0.8 * math.cos(math.radians(20.0)), 0.8 * math.sin(math.radians(20.0)), 0.0]
     runs = [
-        hydrodae.run(strut(JONSWAP, sea=sea))["forces/water/strut/force"].to_numpy()
+        hydrodae.run(strut(JONSWAP, sea=sea))["forces/strut/post/force"].to_numpy()
         for sea in ({"current_profile": rows}, {"current": flow})
     ]
     np.testing.assert_allclose(runs[0], runs[1], rtol=1e-10, atol=1e-10)

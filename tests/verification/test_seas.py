@@ -107,7 +107,7 @@ def test_record_of_our_own_sea_gives_the_same_motion(sphere: Path, tmp_path: Pat
 @pytest.mark.parametrize(
     ("text", "more", "message"),
     [
-        ("time,elevation\n0,0\n0.5,x\n", "", "gauge.csv:3: elevation must be a number, got 'x'"),
+        ("time,elevation\n0,0\n0.5,x\n", "", "gauge.csv:3:5: elevation must be a number, got 'x'"),
         ("time,eta\n0,0\n", "", "gauge.csv:1: expected the names of the columns"),
         (None, "start = 150.0", "the run needs it from 150 s to 250 s"),
         (None, "height = 1.0", "unknown key 'height'"),
