@@ -65,10 +65,9 @@ KR = (0.5, 0.948, 1.285, 1.672, 2.11)
 
 def ball(folder: Path, damping: float) -> Case:
     """A hemisphere that surges and heaves, with a damper on its heave to the ground."""
-    mass = (
-        1000.0
-        * hdb.HydroDatabase.read(folder / "hydro.h5").bodies["ball"].hydrostatics.displaced_volume
-    )
+    statics = hdb.HydroDatabase.read(folder / "hydro.h5").bodies["ball"].hydrostatics
+    assert statics is not None
+    mass = 1000.0 * statics.displaced_volume
     body = table(
         "body", name="ball", hydro="ball", mass=float(mass), inertia=[100.0] * 3,
         center_of_gravity=[0.0, 0.0, 0.0], motion=["surge", "heave"],
@@ -87,7 +86,7 @@ def own_values(reference: Path, damping: float) -> np.ndarray:
     rows = np.genfromtxt(
         reference / "second_order" / "own_values" / "hemisphere.csv", delimiter=",", names=True
     )
-    return rows[rows["damper_Ns_m"] == damping]
+    return np.asarray(rows[rows["damper_Ns_m"] == damping])
 
 
 @pytest.mark.slow

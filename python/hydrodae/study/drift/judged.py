@@ -54,8 +54,8 @@ class Judgement:
                 f"{self.effect:.0%}; make it again: hydrodae drift CASE -o FILE.h5"
             )
         return (
-            f"{text}rms difference {self.own:.2g} from the far field of this device; make it again: "
-            f"hydrodae drift CASE -o FILE.h5"
+            f"{text}rms difference {self.own:.2g} from the far field of this device; make it "
+            f"again: hydrodae drift CASE -o FILE.h5"
         )
 
 
