@@ -17,7 +17,8 @@ DEPTH, RADIUS, DRAFT, COG = 6.0, 1.0, 1.0, -0.4
 MASS = 1025.0 * np.pi * RADIUS**2 * DRAFT
 OMEGA = np.linspace(1.0, 3.6, 14)
 
-Places = Mapping[str, Sequence[float]]
+Place = Sequence[float] | np.ndarray
+Places = Mapping[str, Place]
 
 
 def database(
@@ -34,7 +35,7 @@ def database(
     return cylinders(points, body, water, orders=6, modes=40, kochin=60)[0]
 
 
-def float_of(name: str, place: Sequence[float], motion: object, scale: float = 1.0) -> str:
+def float_of(name: str, place: Place, motion: object, scale: float = 1.0) -> str:
     """Return a table [[body]] of a cylinder that floats."""
     inertia = [0.3, 0.3, 0.5]
     return table(
@@ -48,7 +49,7 @@ def float_of(name: str, place: Sequence[float], motion: object, scale: float = 1
     )
 
 
-def guide(body: str, place: Sequence[float], damping: float, scale: float = 1.0) -> str:
+def guide(body: str, place: Place, damping: float, scale: float = 1.0) -> str:
     """Return a vertical guide to the ground and a damper along it [N s/m]."""
     point = [float(scale * place[0]), float(scale * place[1]), scale * COG]
     joint = table(

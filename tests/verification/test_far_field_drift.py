@@ -10,6 +10,7 @@ from tests.scenes import table
 from tests.verification.cylinder_scenes import (
     COG,
     OMEGA,
+    Places,
     database,
     float_of,
     guide,
@@ -90,7 +91,7 @@ def test_turned_and_mirrored(tmp_path: Path) -> None:
     first = hydrodae.drift(hinged(tmp_path), omega=OMEGA)
     angle = np.radians(50.0)
     turn = turned(angle)[:2, :2]
-    places = {name: turn @ place for name, place in PAIR.items()}
+    places: Places = {name: turn @ place for name, place in PAIR.items()}
     folder = tmp_path / "turned"
     folder.mkdir()
     headings = [h + angle for h in HEADINGS]

@@ -99,7 +99,7 @@ def solve(
         block = slice(DOFS * i, DOFS * (i + 1))
         radiation[block, block] += own
     total = loads + (received @ answer[:, n * DOFS :]).T
-    heard = answer.T.reshape(-1, n, size)
+    heard = np.asarray(answer.T.reshape(-1, n, size), dtype=complex)
     return Solution(radiation, plain, total - plain, _sent(parts, heard))
 
 

@@ -216,7 +216,7 @@ def _kochin(
         far = (body.radius, float(w), water.depth, water.gravity, theta)
         found[row] = kochin_functions(sent, points, *far)
     dofs = tuple(f"{name}__{dof.capitalize()}" for name in names for dof in DOFS)
-    axes = {"omega": water.omega, "theta": theta}
+    axes: dict[str, Array | tuple[str, ...]] = {"omega": water.omega, "theta": theta}
     radiation = {**axes, "radiating_dof": dofs}
     waves = {**axes, "wave_direction": water.heading}
     return {

@@ -189,7 +189,7 @@ def drift_of(
         by_force=found.by_force,
         speed=speed,
         carrier=carrier,
-        computed=np.isclose(w[:, None], water.functions.omega, rtol=1e-9).any(axis=1),
+        computed=np.asarray(np.isclose(w[:, None], water.functions.omega, rtol=1e-9).any(axis=1)),
     )
 
 

@@ -55,7 +55,7 @@ class Judgement:
             )
         return (
             f"{text}rms difference {self.own:.2g} from the far field of this device; make it "
-            "again: hydrodae drift CASE -o FILE.h5"
+            f"again: hydrodae drift CASE -o FILE.h5"
         )
 
 

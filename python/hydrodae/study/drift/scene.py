@@ -233,7 +233,7 @@ class Surroundings:
     def _middle(self) -> Array:
         """Mean of the places of the bodies (2,) [m]."""
         points = [self.database.phase_point(body)[:2] for body in self.database.bodies]
-        return np.mean(points, axis=0)
+        return np.asarray(np.mean(points, axis=0))
 
     @cached_property
     def _smooth_diffraction(self) -> CubicSpline:
