@@ -35,15 +35,23 @@ ZERO_WEIGHT = 3.0
 
 
 class RadiationData(Protocol):
-    """What a fit reads of a hydrodynamic database (SI, rad/s).
+    """What a fit reads of a hydrodynamic database (SI, rad/s)."""
 
-    Labels of n coordinates, frequencies (nw,), added mass and radiation damping (nw, n, n).
-    """
+    @property
+    def coordinates(self) -> Sequence[str]:
+        """Return the labels of the coordinates."""
 
-    coordinates: Any
-    omega: Any
-    added_mass: Any
-    radiation_damping: Any
+    @property
+    def omega(self) -> Any:
+        """Return (nw,) frequencies."""
+
+    @property
+    def added_mass(self) -> Any:
+        """Return (nw, n, n)."""
+
+    @property
+    def radiation_damping(self) -> Any:
+        """Return (nw, n, n)."""
 
 
 @dataclass(frozen=True)

@@ -136,7 +136,7 @@ def derivatives(modes: Modes, omega: Array, left: Array, right: Array) -> tuple[
     pair = ~modes.real
     on_left, on_right = left @ modes.vectors.T, right @ modes.vectors.T
 
-    def by_vector(beta: Array) -> tuple[Array, Array]:
+    def by_vector(beta: ComplexArray) -> tuple[Array, Array]:
         return (
             beta.real * value[0] + beta.imag * value[1],
             pair * (-beta.imag * value[0] + beta.real * value[1]),

@@ -215,7 +215,9 @@ def _tables(run: Run, water: Water, findings: list[Finding]) -> tuple[SourceData
         files=run.files,
         findings=findings,
         scales=Scales(six_of_each(names), setting.length, option),
-        **forces,
+        froude_krylov=forces.get("froude_krylov"),
+        diffraction=forces.get("diffraction"),
+        excitation=forces.get("excitation"),
     )
     return data, motions
 
