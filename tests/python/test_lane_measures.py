@@ -13,7 +13,7 @@ from scipy.interpolate import CubicSpline
 import hydrodae
 from hydrodae import _core
 from hydrodae.study.sweep.fatigue import damage_equivalent_load
-from hydrodae.study.sweep.lanes import measure_lane, signals_of
+from hydrodae.study.sweep.lanes import TURNING, measure_lane, signals_of
 from hydrodae.study.sweep.measures import Measure, Term, measure
 
 RAMP, END = 20.0, 70.0  # s
@@ -21,7 +21,7 @@ CHANNELS = [
     ("joints/hinge1/angle", None),
     ("joints/hinge2/angle_rate", None),
     ("joints/hinge1/reaction_force", "x"),
-    ("joints/hinge1/reaction_moment", "z"),
+    ("joints/hinge1/reaction_force", "y"),
     ("bodies/flap1/position", "x"),
     ("bodies/flap2/velocity", "x"),
     ("bodies/flap1/rotation", "y"),
@@ -120,9 +120,12 @@ def test_measures_of_a_lane_are_those_of_the_run_alone(
 
 
 def test_measures_err_by_less_than_the_tolerance(repository: Path, alone: hydrodae.Results) -> None:
-    for rtol in (1e-3, 1e-5):
+    """Extremes lie on a polynomial of order 6, which falls behind the steps where rtol is small."""
+    for rtol, more in ((1e-3, 1.0), (1e-5, 10.0)):
         found = errors(lane(flaps(repository, **{"solver.rtol": rtol})), alone)
-        assert {name: error for name, error in found.items() if not error < rtol} == {}
+        for name, error in found.items():
+            turning = name.partition("_")[2] in TURNING
+            assert error < rtol * (more if turning else 1.0), name
 
 
 def test_measures_do_not_change_the_steps(repository: Path) -> None:
