@@ -157,6 +157,30 @@ def test_flexible_modes_are_left_out_with_a_warning(tmp_path):
     assert "bending" in report.find("coordinates")[0].message
 
 
+def test_own_coordinates_with_a_stiffness_are_modes(tmp_path):
+    """The yaw of b stands for the pool inside it; of a body that is not there it is left out."""
+    ds = dataset(3, OMEGA)
+    dofs = ["b__pool top" if d == "b__Yaw" else d for d in ds["influenced_dof"].values]
+    dofs = ["c__pool" if d == "a__Yaw" else d for d in dofs]
+    ds = ds.assign_coords(influenced_dof=dofs, radiating_dof=dofs)
+    stiffness = np.add.outer(100.0 * np.arange(12), np.arange(12))
+    ds["hydrostatic_stiffness"] = (["influenced_dof", "radiating_dof"], stiffness)
+    data: Any = read_source(save(ds, tmp_path / "x.nc", 3))
+    assert data.coordinates[-1] == "b.pool_top"
+    assert len(data.coordinates) == 11
+    assert "c.pool" not in data.coordinates
+    assert data.added_mass[1, -1, 2] == pytest.approx(10 * 11 + 2 + 1.0)
+    found = data.mode_stiffness["b"]
+    assert found.shape == (7, 7)
+    assert found[6, 6] == pytest.approx(100.0 * 11 + 11)
+    assert found[2, 6] == pytest.approx(100.0 * 8 + 11)
+    assert found[6, 2] == pytest.approx(100.0 * 11 + 8)
+    assert not found[5].any()  # yaw of b is not in the file
+    assert "a" not in data.mode_stiffness
+    db = hdb.read(tmp_path / "x.nc")
+    np.testing.assert_allclose(db.bodies["b"].mode_stiffness, found)
+
+
 def test_files_that_are_something_else(tmp_path):
     text = tmp_path / "notes.txt"
     text.write_text("hello")

@@ -58,7 +58,7 @@ class OutletLaw:
     def efficiency(self, drop: Array) -> Array:
         """Power at the shaft over p m / rho; the ends of the data stand for what is beyond."""
         at, values = self.table.get("efficiency_at"), self.table.get("efficiency")
-        if not values:
+        if not at or not values:
             return np.zeros_like(drop)
         size = np.clip(self.psi * np.abs(drop), at[0], at[-1])
         return np.asarray(monotone_curve(np.asarray(at, dtype=float), values)(size))

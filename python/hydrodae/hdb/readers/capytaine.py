@@ -20,7 +20,7 @@ from hydrodae.hdb.database.extra import kept_tables, label_text, shallow_finding
 from hydrodae.hdb.database.files import damaged
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.labels import DOFS
-from hydrodae.hdb.readers.capytaine_statics import attach_bodies
+from hydrodae.hdb.readers.capytaine_statics import attach_bodies, mode_name, with_stiffness
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.relations.dispersion import frequency
 from hydrodae.support.arrays import Array, Complex
@@ -206,19 +206,23 @@ def _coordinates(
     ds["influenced_dof"], ds["radiating_dof"] = influenced, radiating
     both = [d for d in influenced if d in radiating]
     rigid = [d for d in both if d.rpartition("__")[2].lower() in DOFS]
-    lost = [d for d in dict.fromkeys(influenced + radiating) if d not in rigid]
+    own = [d for d in both if d not in rigid and d in with_stiffness(ds, rigid)]
+    lost = [d for d in dict.fromkeys(influenced + radiating) if d not in rigid + own]
     if not rigid:
         raise DatabaseError(f"none of {both} is one of {', '.join(DOFS)}").about("label")
     if lost:
         said = f"left out (not rigid, or motion or force only): {lost}"
         findings.append(Finding("warning", "coordinates", said))
+    if own:
+        findings.append(Finding("info", "coordinates", f"modes of their bodies: {own}"))
     prefixes = list(dict.fromkeys(d.rpartition("__")[0] for d in rigid))
     names = unique_names([p or _single_body(path, ds) for p in prefixes])
     labels = []
-    for dof in rigid:
+    for dof in rigid + own:
         prefix, _, word = dof.rpartition("__")
-        labels.append(f"{names[prefixes.index(prefix)]}.{word.lower()}")
-    return rigid, tuple(labels)
+        motion = word.lower() if dof in rigid else mode_name(word)
+        labels.append(f"{names[prefixes.index(prefix)]}.{motion}")
+    return rigid + own, tuple(labels)
 
 
 def _single_body(path: Path, ds: xr.Dataset) -> str:

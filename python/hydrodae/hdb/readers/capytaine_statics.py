@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +31,10 @@ def attach_bodies(data: SourceData, ds: xr.Dataset, raw: list[str], path: Path) 
         prefix = next(dof for dof, label in own if label.body == name).rpartition("__")[0]
         point = _vector(ds, "rotation_center", prefix, i)
         data.reference_points[name] = point
-        hs = _hydrostatics(data, ds, raw, prefix, i, point)
+        rigid = [d for d in raw if is_rigid(d)]
+        if len(rigid) < len(raw):
+            _add_modes(data, ds, raw, prefix, name)
+        hs = _hydrostatics(data, ds, rigid, prefix, i, point)
         near = beside[i]
         if hs is not None and point is not None:
             data.hydrostatics[name] = (hs, point)
@@ -44,6 +48,46 @@ def attach_bodies(data: SourceData, ds: xr.Dataset, raw: list[str], path: Path) 
         else:
             text = f"{name}: not in the file, or incomplete"
             data.findings.append(without_hydrostatics(text, [name]))
+
+
+def is_rigid(dof: str) -> bool:
+    """Return whether a degree of freedom of a file is a rigid motion."""
+    return dof.rpartition("__")[2].lower() in DOFS
+
+
+def mode_name(word: str) -> str:
+    """Name of the mode that an own degree of freedom becomes: letters, digits, _ and - only."""
+    return re.sub(r"[^A-Za-z0-9_-]", "_", word)
+
+
+def with_stiffness(ds: xr.Dataset, rigid: list[str]) -> list[str]:
+    """Return the degrees of freedom, not rigid, of bodies that also move, with their stiffness."""
+    name = "hydrostatic_stiffness"
+    if name not in ds or set(ds[name].dims) != {"influenced_dof", "radiating_dof"}:
+        return []
+    bodies = {d.rpartition("__")[0] for d in rigid}
+    known = [label_text(d) for d in ds[name]["influenced_dof"].values]
+    own = [d for d in known if not is_rigid(d) and d.rpartition("__")[0] in bodies]
+    loads = {d: ds[name].sel(influenced_dof=d, radiating_dof=d).values for d in own}
+    return [d for d, value in loads.items() if np.isfinite(value)]
+
+
+def _add_modes(data: SourceData, ds: xr.Dataset, raw: list[str], prefix: str, name: str) -> None:
+    """Stiffness (6 + m, 6 + m) over the rigid motions and the m modes of a body; rows are loads."""
+    mine = [d for d in raw if d.rpartition("__")[0] == prefix]
+    modes = [d for d in mine if not is_rigid(d)]
+    if not modes:
+        return
+    going = [d for d in mine if is_rigid(d)]
+    index = [DOFS.index(d.rpartition("__")[2].lower()) for d in going]
+    index += range(6, 6 + len(modes))
+    order = [*going, *modes]
+    block = ds["hydrostatic_stiffness"].sel(influenced_dof=order, radiating_dof=order)
+    k = np.zeros((6 + len(modes), 6 + len(modes)))
+    k[np.ix_(index, index)] = np.nan_to_num(
+        block.transpose("influenced_dof", "radiating_dof").values
+    )
+    data.mode_stiffness[name] = k
 
 
 def _hydrostatics(
