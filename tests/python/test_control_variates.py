@@ -16,7 +16,8 @@ from hydrodae.linear.sea import wave_components
 from hydrodae.study.sweep.control import POWER, Transfer, excess, transfer_of
 from hydrodae.study.sweep.estimate import controlled, plain
 from hydrodae.study.sweep.plan import Study, point_key, read_study
-from hydrodae.study.sweep.repetitions import Repetitions, Rounds
+from hydrodae.study.sweep.repetitions import Repetitions
+from hydrodae.study.sweep.rounds import Rounds
 
 TOML = (
     'over = ["wave.sea.seed"]\n[grid]\n"wave.sea.peak_period" = [8.0, 9.0]\n'

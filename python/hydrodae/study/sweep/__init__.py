@@ -13,7 +13,7 @@ from hydrodae.study.sweep.cluster import run_points_on
 from hydrodae.study.sweep.journal import Journal
 from hydrodae.study.sweep.plan import RUNG, Study, point_key, read_study
 from hydrodae.study.sweep.pool import run_points
-from hydrodae.study.sweep.repetitions import Rounds
+from hydrodae.study.sweep.rounds import Rounds
 from hydrodae.study.sweep.rungs import open_case
 from hydrodae.study.sweep.table import claim, dataset, text, texts_of, write
 from hydrodae.support.version import version

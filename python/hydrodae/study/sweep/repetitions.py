@@ -1,23 +1,18 @@
-"""Repetitions of the runs of a study: seeds that are added until an interval is met."""
+"""What a study asks of the repetitions of its runs."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from hydrodae import _core
 from hydrodae.errors import CaseError
 from hydrodae.study.sweep.control import POWER
 from hydrodae.study.sweep.estimate import Estimate, controlled, plain
-from hydrodae.study.sweep.points import Point, is_number
-
-if TYPE_CHECKING:
-    from hydrodae.study.sweep.batches import Batch
-    from hydrodae.study.sweep.journal import Row
-    from hydrodae.study.sweep.plan import Study
+from hydrodae.study.sweep.journal import Row
+from hydrodae.study.sweep.points import is_number
 
 KEYS = ("control", "interval", "runs")
 CONTROLS = ("none", "linear")
@@ -110,58 +105,3 @@ def read_repetitions(file: Path, given: Mapping[str, Any]) -> tuple[Repetitions,
     more = range(max(seeds) + 1, max(seeds) + 1 + runs - len(seeds))
     told = Repetitions(((over[0], seeds[0]),), control, float(interval), len(seeds))
     return told, {**given, "grid": {**grid, over[0]: [*seeds, *more]}}
-
-
-class Rounds(Iterator["Batch"]):
-    """Batches of a study with an interval: those of a sea state until its interval is met.
-
-    An iterator that has ended for now has more batches when rows have come. Which runs are made
-    depends on the rows of the sea state alone.
-
-    Parameters
-    ----------
-    plan : Study
-    rows : mapping from str
-        Finished runs by the keys of their points, which grows.
-    """
-
-    def __init__(self, plan: Study, rows: Mapping[str, Row]) -> None:
-        from hydrodae.study.sweep.plan import point_key
-
-        self._plan, self._rows, self._key = plan, rows, point_key
-        self._cells: dict[str, list[Point]] = {}
-        seed = plan.over[0]
-        for point in plan.points:
-            cell = point_key({k: v for k, v in point.items() if k != seed})
-            self._cells.setdefault(cell, []).append(point)
-        self._asked = dict.fromkeys(self._cells, 0)
-        self._ready: list[Batch] = []
-
-    def __next__(self) -> Batch:
-        if not self._ready:
-            for cell in list(self._cells):
-                self._extend(cell)
-        if not self._ready:
-            raise StopIteration
-        return self._ready.pop(0)
-
-    def _extend(self, cell: str) -> None:
-        """Ask for the next rounds of a sea state whose runs have all come."""
-        from hydrodae.study.sweep.batches import batches_of
-
-        points, wanted = self._cells[cell], self._plan.repetitions
-        while True:
-            asked = self._asked[cell]
-            rows = [self._rows.get(self._key(point)) for point in points[:asked]]
-            if any(row is None for row in rows):
-                return
-            found = wanted.estimate(rows)
-            if (asked and found.half <= wanted.interval * abs(found.mean)) or asked >= len(points):
-                del self._cells[cell]
-                return
-            self._asked[cell] = min(len(points), asked + (_core.lanes if asked else wanted.first))
-            new = points[asked : self._asked[cell]]
-            left = {self._key(point) for point in new} - set(self._rows)
-            self._ready += batches_of(self._plan, new, left)
-            if left:
-                return
