@@ -46,13 +46,17 @@ hydro::Database wave_tables(const model::Scene& scene, const system::System& sys
 
 YawSamples yaw_samples(const hydro::Excitation& table, std::size_t first_label, const Meeting& body,
                        const std::vector<sea::Component>& components) {
+  return yaw_samples(table.headings(), arm(table, first_label, body), body, components);
+}
+
+YawSamples yaw_samples(const hydro::Headings& headings, double lever, const Meeting& body,
+                       const std::vector<sea::Component>& components) {
   YawSamples out;
   out.yaws = VectorX::Constant(1, body.yaw);
   out.transform = MatrixX::Ones(1, 1);
   if (!body.yaws)
     return out;
   water::YawFunctions& f = out.functions;
-  const hydro::Headings& headings = table.headings();
   f.round = headings.round();
   if (!f.round)
     set_interval(headings, body, components, f);
@@ -61,7 +65,7 @@ YawSamples yaw_samples(const hydro::Excitation& table, std::size_t first_label, 
     return out;
   double z = 0.0;
   for (const sea::Component& c : components)
-    z = std::max(z, c.wavenumber * arm(table, first_label, body));
+    z = std::max(z, c.wavenumber * lever);
   // Twice what equal steps resolve, for the splines of others.
   const double wanted =
       2.0 * (static_cast<double>(headings.table().size()) + harmonics_of_phase(z));

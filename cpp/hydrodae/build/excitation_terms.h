@@ -48,6 +48,10 @@ struct YawSamples {
 YawSamples yaw_samples(const hydro::Excitation& table, std::size_t first_label, const Meeting& body,
                        const std::vector<sea::Component>& components);
 
+/// The same for any tables with these headings, whose phases turn with a lever [m] of the body.
+YawSamples yaw_samples(const hydro::Headings& headings, double lever, const Meeting& body,
+                       const std::vector<sea::Component>& components);
+
 /// Coefficients of the functions of time that load a body: functions.count successive rows for each
 /// of its six coordinates, (6 count, n_components), phase zero at the origin.
 Eigen::MatrixXcd yaw_coefficients(const hydro::Excitation& table, std::size_t first_label,

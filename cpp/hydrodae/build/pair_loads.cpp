@@ -12,6 +12,8 @@ namespace {
 
 constexpr double same = 1e-6;    ///< of headings [rad]
 constexpr double slack_w = 1e-9; ///< of frequencies, relative
+/// Programs print periods with five digits: a wave as near to a table frequency has its value.
+constexpr double printed = 1e-5;
 
 /// Different headings, ascending; where they go round in steps of at most the widest gap, the first
 /// again a full turn on, so that interpolation is periodic.
@@ -45,8 +47,9 @@ Place place(const VectorX& table, double omega) {
     return {};
   const auto above = std::upper_bound(table.begin() + 1, table.end() - 1, omega);
   const Index high = above - table.begin();
-  const double x = (omega - table[high - 1]) / (table[high] - table[high - 1]);
-  return {high - 1, high, std::min(x, 1.0)};
+  const double step = table[high] - table[high - 1], near = printed * omega / step;
+  const double x = (omega - table[high - 1]) / step;
+  return {high - 1, high, x < near ? 0.0 : x > 1.0 - near ? 1.0 : x};
 }
 
 /// A product in which a load that is not computed (NaN) does not count where its weight is zero.

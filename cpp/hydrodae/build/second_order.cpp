@@ -14,8 +14,7 @@
 #include <memory>
 #include <utility>
 
-#include "hydrodae/build/pair_loads.h"
-#include "hydrodae/build/parts.h"
+#include "hydrodae/build/second_order_checks.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/hydro/coverage.h"
 #include "hydrodae/math/takagi.h"
@@ -25,8 +24,6 @@ namespace hydrodae::build {
 
 namespace {
 
-const std::string loads_key = "second_order.loads";
-
 /// Errors, as parts of the rms of each load: of the products, and of their table over time.
 struct Accuracy {
   double products, table;
@@ -34,131 +31,6 @@ struct Accuracy {
 
 Accuracy accuracy(const model::SecondOrder& options) {
   return options.terms == "few" ? Accuracy{9e-4, 1e-5} : Accuracy{1e-10, 1e-9};
-}
-
-/// The waves that the tables cover, as a body meets them.
-struct Met {
-  VectorX omega, relative;    ///< frequency, heading relative to the body at yaw zero [rad]
-  Eigen::VectorXcd amplitude; ///< at the body
-};
-
-Met met(const std::vector<sea::Component>& waves, const Meeting& body) {
-  const Index n = std::ssize(waves);
-  Met out{VectorX(n), VectorX(n), Eigen::VectorXcd(n)};
-  for (Index i = 0; i < n; ++i) {
-    const sea::Component& c = waves[static_cast<std::size_t>(i)];
-    out.omega[i] = c.omega;
-    out.relative[i] = c.heading;
-    out.amplitude[i] =
-        std::polar(c.amplitude, c.phase - c.wavenumber * (body.point[0] * std::cos(c.heading) +
-                                                          body.point[1] * std::sin(c.heading)));
-  }
-  return out;
-}
-
-/// A load of the case with the table that it takes.
-struct Load {
-  std::string word;
-  const hydro::SecondOrderTable* table;
-  bool pairs() const { return word == "difference" || word == "sum"; }
-};
-
-std::vector<Load> find_loads(const model::Scene& scene) {
-  const hydro::Database& db = *scene.database;
-  const auto find = [&](const std::string& kind) -> const hydro::SecondOrderTable* {
-    for (const hydro::SecondOrderTable& table : db.second_order)
-      if (table.kind == kind)
-        return &table;
-    return nullptr;
-  };
-  std::vector<Load> out;
-  for (const std::string& word : scene.second_order->loads) {
-    const bool pairs = word == "difference" || word == "sum";
-    const hydro::SecondOrderTable* table = pairs ? find(word) : find("mean");
-    if (!table && !pairs)
-      table = find("difference");
-    if (!table)
-      throw ModelError(loads_key, "loads = [" + in_quotes(word) + "] needs a table of " +
-                                      (pairs ? word + "s of two waves" : "the mean drift") +
-                                      ", and " + db.path +
-                                      " has none; hydrodae hdb import writes "
-                                      "it from the files of its source (docs/databases.md)");
-    out.push_back({word, table});
-  }
-  return out;
-}
-
-bool covers(const std::vector<Load>& loads, double omega) {
-  constexpr double slack = 1e-9; // relative
-  return std::all_of(loads.begin(), loads.end(), [&](const Load& load) {
-    const VectorX& w = load.table->omega;
-    return omega >= w[0] * (1.0 - slack) && omega <= w[w.size() - 1] * (1.0 + slack);
-  });
-}
-
-/// The waves whose frequencies all tables have. Throws ModelError where too much is lost.
-std::vector<sea::Component> covered_waves(const model::Scene& scene, const Sea& sea,
-                                          const std::vector<Load>& loads, system::System& s) {
-  std::vector<sea::Component> out;
-  double all = 0.0, lost = 0.0;
-  for (const sea::Component& c : sea.all) {
-    all += c.amplitude * c.amplitude;
-    if (covers(loads, c.omega))
-      out.push_back(c);
-    else
-      lost += c.amplitude * c.amplitude;
-  }
-  if (!(lost > 0.0))
-    return out;
-  double low = 0.0, high = INFINITY;
-  for (const Load& load : loads) {
-    low = std::max(low, load.table->omega[0]);
-    high = std::min(high, load.table->omega[load.table->omega.size() - 1]);
-  }
-  const std::string text = rounded_text(100.0 * lost / all, 2) +
-                           " % of the variance of the waves lies outside the frequencies of the "
-                           "tables of second order, " +
-                           number_text(low) + " to " + number_text(high) + " rad/s";
-  if (lost > scene.second_order->lost_variance * all)
-    throw ModelError(
-        "second_order.lost_variance",
-        text + ", more than lost_variance = " + number_text(scene.second_order->lost_variance) +
-            " allows; set 'frequency_range' of the waves, or import a table of more "
-            "frequencies");
-  s.notes.push_back("second order: " + text);
-  return out;
-}
-
-/// Do all waves travel alike?
-bool one_heading(const std::vector<sea::Component>& waves) {
-  constexpr double same = 1e-6; // [rad]
-  return std::all_of(waves.begin(), waves.end(), [&](const sea::Component& c) {
-    return std::abs(std::remainder(c.heading - waves[0].heading, 2.0 * pi)) < same;
-  });
-}
-
-void check_headings(const PairTable& table, const Load& load,
-                    const std::vector<sea::Component>& waves, double yaw) {
-  const auto degrees = [](double angle) { return number_text(angle * 180.0 / pi) + " deg"; };
-  const VectorX& own = table.headings().table();
-  for (const sea::Component& c : waves)
-    if (!table.headings().covered(c.heading - yaw))
-      throw ModelError(loads_key, "a wave travels towards " + degrees(c.heading) +
-                                      (yaw != 0.0 ? " less the yaw of the body" : "") +
-                                      ", outside the headings of the table " +
-                                      in_quotes(load.table->kind) + ", " + degrees(own[0]) +
-                                      " to " + degrees(own[own.size() - 1]) +
-                                      "; set 'heading_deg' of the wave, or import a table with it");
-  if (load.pairs() && !table.crossed() && !one_heading(waves))
-    throw ModelError(loads_key, "the waves travel in several directions, and the table " +
-                                    in_quotes(load.table->kind) +
-                                    " has pairs of equal headings alone; import one with pairs of "
-                                    "headings, or use loads = [\"newman\"], which needs none");
-  constexpr Index most = 3000; // M of so many waves takes 144 MB
-  if (load.pairs() && std::ssize(waves) > most)
-    throw ModelError(loads_key, "a table of pairs of " + std::to_string(waves.size()) +
-                                    " waves is too large, at most " + std::to_string(most) +
-                                    "; use fewer 'components', or loads = [\"newman\"]");
 }
 
 /// What a load is before its products: M of pairs, or the diagonal.
@@ -225,52 +97,6 @@ sea::QuadraticForm quadratic_form(const Weighted& w, const Load& load, const Met
   return out;
 }
 
-/// Yaws at which tables are taken, as those of the excitation (excitation_terms.h). The phases of
-/// the waves at the body do not depend on its yaw.
-YawSamples table_samples(const hydro::Headings& headings, const Meeting& body,
-                         const std::vector<sea::Component>& waves) {
-  YawSamples out;
-  out.yaws = VectorX::Constant(1, body.yaw);
-  out.transform = MatrixX::Ones(1, 1);
-  if (!body.yaws)
-    return out;
-  water::YawFunctions& f = out.functions;
-  f.round = headings.round();
-  if (!f.round) {
-    double below = -INFINITY, above = INFINITY;
-    const VectorX& own = headings.table();
-    for (const sea::Component& c : waves) {
-      const double relative = *headings.covered(c.heading - body.yaw);
-      below = std::max(below, relative - own[own.size() - 1]);
-      above = std::min(above, relative - own[0]);
-    }
-    f.middle = body.yaw + 0.5 * (above + below);
-    f.half = 0.5 * (above - below);
-    constexpr double one_yaw = 1e-9; // [rad]
-    if (f.half < one_yaw)
-      return out;
-  }
-  // Twice what equal steps resolve, for the splines of others.
-  const double wanted = 2.0 * static_cast<double>(headings.table().size());
-  const auto n = 2 * static_cast<Index>(0.5 * std::min<double>(wanted, f.most - 1)) + 1;
-  f.count = static_cast<int>(n);
-  out.yaws.resize(n);
-  out.transform.resize(n, n);
-  for (Index k = 0; k < n; ++k) {
-    const auto at = static_cast<double>(k), count = static_cast<double>(n);
-    const double angle = f.round ? 2.0 * pi * at / count : pi * (at + 0.5) / count;
-    out.yaws[k] = f.round ? angle : f.middle + f.half * std::cos(angle);
-    out.transform(0, k) = 1.0 / count;
-    for (Index m = 1; m < n; ++m) {
-      const double order = static_cast<double>(f.round ? (m + 1) / 2 : m);
-      const bool sine = f.round && m % 2 == 0;
-      out.transform(m, k) =
-          2.0 / count * (sine ? std::sin(order * angle) : std::cos(order * angle));
-    }
-  }
-  return out;
-}
-
 /// The functions of time of all bodies: of coordinates that move, and of the others.
 struct Forms {
   std::vector<sea::QuadraticForm> moving, still;
@@ -323,52 +149,6 @@ void add_load(const PairTable& table, const Load& load, int number, const Met& w
   }
 }
 
-/// Waves against which a device is drifted, by the largest of the table.
-void note_maruo(const PairTable& table, const Load& load, const Met& waves, double yaw,
-                const std::string& body, system::System& s) {
-  constexpr double noise = 1e-3;
-  if (load.word == "sum" || !table.loads(0))
-    return;
-  const VectorX relative = waves.relative.array() - yaw;
-  const VectorX x = table.single(0, waves.omega, relative);
-  const VectorX y =
-      table.loads(1) ? table.single(1, waves.omega, relative) : VectorX::Zero(x.size());
-  const VectorX along = x.cwiseProduct(relative.array().cos().matrix()) +
-                        y.cwiseProduct(relative.array().sin().matrix());
-  const double largest = along.cwiseAbs().maxCoeff(), worst = along.minCoeff();
-  const auto against = (along.array() < -noise * largest).count();
-  if (against > 0)
-    s.notes.push_back(
-        "second order, body " + in_quotes(body) + ": the mean drift is against " +
-        rounded_text(100.0 * static_cast<double>(against) / static_cast<double>(along.size()), 2) +
-        " % of the waves, at worst " + number_text(worst) +
-        " N/m2, which no body without a source of power has (Maruo 1960)");
-}
-
-/// Newman's approximation is one for small differences of frequencies.
-void note_newman(const PairTable& table, const Load& load, const Met& waves, double yaw,
-                 const std::string& body, system::System& s) {
-  constexpr double small = 0.2;    // [rad/s]
-  constexpr double relevant = 0.1; // of the variance: 5 % of the rms
-  if (load.word != "newman" || !table.loads(0))
-    return;
-  const VectorX D = table.single(0, waves.omega, waves.relative.array() - yaw),
-                a2 = waves.amplitude.cwiseAbs2();
-  double all = 0.0, beyond = 0.0;
-  for (Index i = 0; i < D.size(); ++i)
-    for (Index j = 0; j < i; ++j) {
-      const double square = std::pow(D[i] + D[j], 2) * a2[i] * a2[j];
-      all += square;
-      beyond += std::abs(waves.omega[i] - waves.omega[j]) > small ? square : 0.0;
-    }
-  if (beyond > relevant * all)
-    s.notes.push_back("second order, body " + in_quotes(body) +
-                      ": Newman's approximation is for "
-                      "small differences of frequencies, and " +
-                      rounded_text(100.0 * beyond / all, 2) +
-                      " % of the variance of its slow surge force lies above 0.2 rad/s");
-}
-
 /// The database body of a hydrodynamic body that the tables load; null: they do not.
 const hydro::DatabaseBody* loaded_body(const model::Scene& scene, const system::System& s,
                                        std::size_t i, const std::vector<Load>& loads) {
@@ -386,14 +166,50 @@ const hydro::DatabaseBody* loaded_body(const model::Scene& scene, const system::
   const std::string& own = s.bodies[static_cast<std::size_t>(hb.body)].name;
   for (std::size_t k = 0; k < s.hydro.bodies.size(); ++k)
     if (k != i && static_cast<std::size_t>(s.hydro.bodies[k].carrier) == i)
-      throw ModelError(loads_key, "body " + in_quotes(own) +
-                                      " has modes, and tables of second order are of a rigid "
-                                      "body; leave out [second_order], or [[mode]]");
+      throw ModelError(second_order_key,
+                       "body " + in_quotes(own) +
+                           " has modes, and tables of second order are of a rigid "
+                           "body; leave out [second_order], or [[mode]]");
   if (hb.table >= 0)
-    throw ModelError(loads_key, "body " + in_quotes(own) +
-                                    " has a [[pose_table]], and the tables of second order are of "
-                                    "one pose; leave out one of the two");
+    throw ModelError(second_order_key,
+                     "body " + in_quotes(own) +
+                         " has a [[pose_table]], and the tables of second order are of "
+                         "one pose; leave out one of the two");
   return hydro::find_body(*scene.database, name);
+}
+
+/// The loads of all tables on hydrodynamic body i, their functions of time behind those in `forms`.
+water::SlowDrift::Body loads_on_body(const model::Scene& scene, system::System& s, std::size_t i,
+                                     const hydro::DatabaseBody& entry,
+                                     const std::vector<Load>& loads,
+                                     const std::vector<sea::Component>& waves, const Meeting& place,
+                                     Forms& forms) {
+  const system::HydroBody& hb = s.hydro.bodies[i];
+  const system::BodyData& b = s.bodies[static_cast<std::size_t>(hb.body)];
+  water::SlowDrift::Body body{b.name, hb, b.reference, {}, {}, {}};
+  body.moving.first = std::ssize(forms.moving);
+  body.still.first = std::ssize(forms.still);
+  const Met own = met(waves, place);
+  VectorX headings;
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    const PairTable table(*scene.database, *loads[k].table, entry);
+    check_headings(table, loads[k], waves, place.yaw);
+    const VectorX& its = table.headings().table();
+    if (place.yaws && k > 0 && (its.size() != headings.size() || !its.isApprox(headings)))
+      throw ModelError(second_order_key,
+                       "axes = \"yaw\" needs the same headings in all tables of second "
+                       "order, and those of " +
+                           in_quotes(loads[k].table->kind) +
+                           " differ; import them for the same headings");
+    headings = its;
+    const YawSamples samples = yaw_samples(table.headings(), 0.0, place, waves);
+    body.yaw = samples.functions;
+    note_maruo(table, loads[k], own, place.yaw, b.name, s);
+    note_newman(table, loads[k], own, place.yaw, b.name, s);
+    add_load(table, loads[k], static_cast<int>(k), own, samples,
+             accuracy(*scene.second_order).products, body, b.length_scale, forms);
+  }
+  return body;
 }
 
 } // namespace
@@ -406,7 +222,6 @@ void add_second_order(const model::Scene& scene, const Sea& sea, system::System&
   if (waves.empty())
     return;
   const std::vector<Meeting> places = meetings(scene, s);
-  const Accuracy wanted = accuracy(*scene.second_order);
   std::vector<water::SlowDrift::Body> bodies;
   std::vector<system::PortData> ports;
   Forms forms;
@@ -414,41 +229,16 @@ void add_second_order(const model::Scene& scene, const Sea& sea, system::System&
     const hydro::DatabaseBody* entry = loaded_body(scene, s, i, loads);
     if (!entry)
       continue;
-    const system::HydroBody& hb = s.hydro.bodies[i];
-    const system::BodyData& b = s.bodies[static_cast<std::size_t>(hb.body)];
-    water::SlowDrift::Body body{b.name, hb, b.reference, {}, {}, {}};
-    body.moving.first = std::ssize(forms.moving);
-    body.still.first = std::ssize(forms.still);
-    const Met own = met(waves, places[i]);
-    VectorX headings;
-    for (std::size_t k = 0; k < loads.size(); ++k) {
-      const PairTable table(*scene.database, *loads[k].table, *entry);
-      check_headings(table, loads[k], waves, places[i].yaw);
-      const VectorX& its = table.headings().table();
-      if (places[i].yaws && k > 0 && (its.size() != headings.size() || !its.isApprox(headings)))
-        throw ModelError(loads_key,
-                         "axes = \"yaw\" needs the same headings in all tables of second "
-                         "order, and those of " +
-                             in_quotes(loads[k].table->kind) +
-                             " differ; import them for the same headings");
-      headings = its;
-      const YawSamples samples = table_samples(table.headings(), places[i], waves);
-      body.yaw = samples.functions;
-      note_maruo(table, loads[k], own, places[i].yaw, b.name, s);
-      note_newman(table, loads[k], own, places[i].yaw, b.name, s);
-      add_load(table, loads[k], static_cast<int>(k), own, samples, wanted.products, body,
-               b.length_scale, forms);
-    }
-    bodies.push_back(std::move(body));
+    bodies.push_back(loads_on_body(scene, s, i, *entry, loads, waves, places[i], forms));
     system::PortData port;
     port.component = "second_order";
-    port.body = hb.body;
+    port.body = s.hydro.bodies[i].body;
     ports.push_back(std::move(port));
   }
   if (bodies.empty())
-    throw ModelError(loads_key, "the tables of second order of " + scene.database->path +
-                                    " load no body of the case; they load " +
-                                    joined(loads[0].table->coordinates));
+    throw ModelError(second_order_key, "the tables of second order of " + scene.database->path +
+                                           " load no body of the case; they load " +
+                                           joined(loads[0].table->coordinates));
   auto list = std::make_shared<water::SlowDrift>(s.hydro.axes, std::move(bodies),
                                                  scene.second_order->loads);
   VectorX omega(std::ssize(waves));
@@ -460,7 +250,7 @@ void add_second_order(const model::Scene& scene, const Sea& sea, system::System&
       return out;
     if (scene.sea.phase == "fixed")
       out.fixed = sea::QuadraticSignals(omega, std::move(list_of), scene.solver.end_time,
-                                        scene.sea.ramp, wanted.table);
+                                        scene.sea.ramp, accuracy(*scene.second_order).table);
     else
       out.drifting = sea::DriftingQuadratic(waves, std::move(list_of), scene.sea.ramp);
     return out;
