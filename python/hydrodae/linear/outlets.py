@@ -80,7 +80,7 @@ def outlet_law(outlet: Table, density: float, pressure: float) -> OutletLaw:
 
 
 def _plug(outlet: Table, density: float, pressure: float) -> OutletLaw:
-    """m = k p."""
+    """M = k p."""
     slope = float(outlet["conductance"])
     return OutletLaw(outlet["name"], outlet["type"], None, slope, False, outlet)
 
