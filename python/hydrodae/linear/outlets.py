@@ -65,6 +65,10 @@ class OutletLaw:
         size = np.clip(self.psi * np.abs(drop), at[0], at[-1])
         return np.asarray(monotone_curve(np.asarray(at, dtype=float), values)(size))
 
+    def shaft(self, drop: Array) -> Array:
+        """Efficiency times mass flow [kg/s]: power at the shaft over p / rho."""
+        return np.asarray(self.efficiency(drop) * self.through(drop))
+
 
 def outlet_law(outlet: Table, density: float, pressure: float) -> OutletLaw:
     """Flow of an outlet of a case.

@@ -89,7 +89,7 @@ def turbine_powers(model: LinearModel, drops: Mapping[str, Motion]) -> dict[str,
             motion = drops[law.name]
             power = 0.0
             if deviation(motion) > 0.0:
-                mean = slope(lambda p, law=law: law.efficiency(p) * law.through(p), motion)
+                mean = slope(law.shaft, motion)
                 power = mean * deviation(motion) ** 2 / air.density
             out[f"outlets/{law.name}/power_turbine"] = power
             if "inertia" not in law.table:  # the generator takes all that the turbine gives
