@@ -22,6 +22,8 @@ Flow = Callable[[Array], Array]
 CRITICAL = 1.2**-3.5
 #: Coefficient, exponent of the biradial turbine.
 BIRADIAL = 0.195, 0.6
+#: Types that the pressure opens and shuts.
+VALVES = ("valve",)
 
 
 @dataclass(frozen=True)
@@ -63,6 +65,10 @@ class OutletLaw:
         size = np.clip(self.psi * np.abs(drop), at[0], at[-1])
         return np.asarray(monotone_curve(np.asarray(at, dtype=float), values)(size))
 
+    def shaft(self, drop: Array) -> Array:
+        """Efficiency times mass flow [kg/s]: power at the shaft over p / rho."""
+        return np.asarray(self.efficiency(drop) * self.through(drop))
+
 
 def outlet_law(outlet: Table, density: float, pressure: float) -> OutletLaw:
     """Flow of an outlet of a case.
@@ -74,17 +80,18 @@ def outlet_law(outlet: Table, density: float, pressure: float) -> OutletLaw:
     density, pressure : float
         Of the atmosphere [kg/m3, Pa].
     """
-    kind = outlet["type"]
-    if kind in ("orifice", "valve"):
-        return _hole(outlet, density, pressure)
-    if kind == "porous_plug":
-        return OutletLaw(outlet["name"], kind, None, float(outlet["conductance"]), False, outlet)
-    return _turbine(outlet, density)
+    return _LAWS.get(outlet["type"], _turbine)(outlet, density, pressure)
+
+
+def _plug(outlet: Table, density: float, pressure: float) -> OutletLaw:
+    """M = k p."""
+    slope = float(outlet["conductance"])
+    return OutletLaw(outlet["name"], outlet["type"], None, slope, False, outlet)
 
 
 def _hole(outlet: Table, density: float, pressure: float) -> OutletLaw:
     """C A sqrt(2 rho) p / (p^2 + p_l^2)^(1/4), choked; a valve does not choke."""
-    valve = outlet["type"] == "valve"
+    valve = outlet["type"] in VALVES
     laminar = float(outlet.get("laminar_pressure", 1.0))
     opening = 1.0 if valve else float(outlet.get("opening", 1.0))
     size = opening * float(outlet["coefficient"]) * float(outlet["area"]) * np.sqrt(2.0 * density)
@@ -99,7 +106,7 @@ def _hole(outlet: Table, density: float, pressure: float) -> OutletLaw:
     return OutletLaw(outlet["name"], outlet["type"], flow, float(slope), shut, outlet)
 
 
-def _turbine(outlet: Table, density: float) -> OutletLaw:
+def _turbine(outlet: Table, density: float, pressure: float) -> OutletLaw:
     """M = Phi(Psi) rho W D^3, Psi = p / (rho W^2 D^2)."""
     kind, speed, size = outlet["type"], float(outlet["speed"]), float(outlet["diameter"])
     psi, unit = 1.0 / (density * speed**2 * size**2), density * speed * size**3
@@ -146,3 +153,10 @@ def _measured(outlet: Table) -> tuple[Flow | None, float]:
 
     at, flow = outlet["flow_at"][:2], outlet["flow"][:2]
     return phi, float((flow[1] - flow[0]) / (at[1] - at[0]))
+
+
+_LAWS: Mapping[str, Callable[[Table, float, float], OutletLaw]] = {
+    "orifice": _hole,
+    "valve": _hole,
+    "porous_plug": _plug,
+}

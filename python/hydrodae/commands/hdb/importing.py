@@ -109,8 +109,8 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         metavar="NAME",
         action="append",
         default=[],
-        help="this body is a water column, a piston inside a hull: keep its heave only, and check "
-        "it as a piston (stiffness and long-wave force rho g S). May be repeated",
+        help="this body is a water column, a piston inside a hull: keep its heave only. "
+        "Check its stiffness and long-wave force, rho g S. May be repeated",
     )
     add.add_argument(
         "--mesh",

@@ -1,7 +1,7 @@
 """Checks of water columns: bodies that are a piston of water inside a hull, not hulls themselves.
 
-A piston of area S has the stiffness rho g S, and in waves much longer than the device the force
-rho g S per metre, less the inertia of the water that moves with all bodies, w^2 sum_j A_3,3j.
+A piston of area S has the stiffness rho g S. In waves much longer than the device its force is
+rho g S per metre, less the inertia w^2 sum_j A_3,3j of the water that moves with all bodies.
 """
 
 from __future__ import annotations

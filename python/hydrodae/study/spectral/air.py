@@ -13,7 +13,7 @@ import numpy as np
 
 from hydrodae.errors import CaseError
 from hydrodae.linear import LinearModel
-from hydrodae.linear.outlets import OutletLaw
+from hydrodae.linear.outlets import VALVES, OutletLaw
 from hydrodae.study.spectral.factors import Law, gauss_law, lorentz_law
 from hydrodae.study.spectral.loads import Motion
 from hydrodae.support.arrays import Array
@@ -66,7 +66,7 @@ def curved_outlets(model: LinearModel) -> list[Outlet]:
     out = []
     for air in model.air:
         for law in air.outlets:
-            if law.kind == "valve" and not law.shut:
+            if law.kind in VALVES and not law.shut:
                 raise CaseError(
                     f"outlet {law.name!r}: a valve that any pressure opens has no linear "
                     "equivalent here, as it makes a mean pressure; run it in the time domain"
@@ -89,7 +89,7 @@ def turbine_powers(model: LinearModel, drops: Mapping[str, Motion]) -> dict[str,
             motion = drops[law.name]
             power = 0.0
             if deviation(motion) > 0.0:
-                mean = slope(lambda p, law=law: law.efficiency(p) * law.through(p), motion)
+                mean = slope(law.shaft, motion)
                 power = mean * deviation(motion) ** 2 / air.density
             out[f"outlets/{law.name}/power_turbine"] = power
             if "inertia" not in law.table:  # the generator takes all that the turbine gives

@@ -107,7 +107,7 @@ def equivalents(
                 tuple(own), tuple(motions), damping, drag, iteration, float(change), slopes, drops
             )
         factors = mixing.step(factors, found)
-    names = [each.name for each in (*loads, *outlets)]
+    names = [load.name for load in loads] + [outlet.name for outlet in outlets]
     raise CaseError(
         f"the linear equivalents of {', '.join(names)} did not settle in "
         f"{most} iterations (last change {change:.1e}): run the case in the time domain"
