@@ -11,13 +11,13 @@ namespace hydrodae::run {
 
 namespace {
 
-constexpr double stiff = 50.0;      ///< fastest rate over that of the motion
-constexpr double long_run = 2000.0; ///< [rad]
-constexpr double short_step = 0.02; ///< [rad]
-constexpr int many = 40;            ///< short steps
-constexpr int weighed = 10;         ///< steps that are weighed together
+constexpr double stiff = 50.0;      ///< ratio of the fastest rate to that of the motion
+constexpr double long_run = 2000.0; ///< length of a long run [rad]
+constexpr double short_step = 0.02; ///< length of a short step [rad]
+constexpr int many = 40;            ///< number of short steps in a row
+constexpr int weighed = 10;         ///< number of steps per comparison
 
-/// Is there anything but joints, weights and constant loads in each group of bodies?
+/// Returns whether every group of bodies has more than joints, weights and constant loads.
 bool may_damp(const system::Regime& s) {
   std::vector<bool> damped(static_cast<std::size_t>(s.n_groups));
   const auto mark = [&](const system::BodyData* body) {
@@ -109,7 +109,7 @@ MethodChange MethodChoice::after(const SolverError& error, MethodChange::Cause c
   if (more())
     return change;
   Halt halt = error.halt;
-  halt.advice.clear(); // it names other methods
+  halt.advice.clear(); // the advice names other methods
   halt.what = "no method of \"auto\" goes on: ";
   for (const MethodChange& c : state_.changes)
     halt.what += with_time(c) + "; ";
@@ -144,10 +144,11 @@ bool MethodChoice::weighs() const {
 
 std::optional<MethodChange> MethodChoice::weigh(double t, double of_step,
                                                 const std::function<double()>& fastest) {
-  constexpr double enough = 2.0, stable = 5.0; // of a step of order 8, times the fastest rate
+  // factor of steps; stable length of an order 8 step times the fastest rate
+  constexpr double enough = 2.0, stable = 5.0;
   const double as_many =
-      (state_.operations - state_.weighed_from) / of_step; // steps of explicit_rk
-  double ratio = as_many / weighed;                        // of steps as long
+      (state_.operations - state_.weighed_from) / of_step; // number of explicit_rk steps
+  double ratio = as_many / weighed;                        // ratio for steps of equal length
   if (ratio > enough)
     ratio = std::min(ratio, as_many * stable / (fastest() * state_.weighed_time));
   state_.weighed_steps = 0;
@@ -163,7 +164,7 @@ std::optional<MethodChange> MethodChoice::weigh(double t, double of_step,
                           rounded_text(ratio) + " times the operations that explicit_rk needs"};
 }
 
-/// The order with the turns of explicit_rk behind the first method.
+/// Method number `at` of the order, with the turns of explicit_rk after the first method.
 const std::string& MethodChoice::method(std::size_t at) const {
   static const std::string other = "explicit_rk";
   if (at > 2 * state_.turns)
