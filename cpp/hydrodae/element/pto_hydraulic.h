@@ -20,8 +20,9 @@ namespace hydrodae::element {
 ///   p_H' = n p_H / V_H (Q - Q_m),  p_L' = -n p_L / V_L (Q - Q_m)
 ///   V_i = V_i0 (p_i0 / p_i)^(1/n)       volume of the gas [m3]
 ///
-/// On a rotation the area is that of the piston times its lever [m3/rad]. Energy is kept: the power
-/// absorbed, -f s', is what the motor takes, Q_m (p_H - p_L), and what the gas stores.
+/// On a rotation, A is the area of the piston times its lever [m3/rad]. Energy is conserved: the
+/// absorbed power -f s' is the sum of the motor power Q_m (p_H - p_L) and the power stored in the
+/// gas.
 struct PtoHydraulic {
   static constexpr std::string_view type = "pto_hydraulic";
   static constexpr std::string_view doc = "Hydraulic power take-off along a joint: cylinder, check "

@@ -10,7 +10,7 @@ namespace {
 
 using enum Effect;
 
-/// The pieces of an element, and how many of their centres are inside the mesh of its body.
+/// Number of pieces of an element, and of those with the centre inside the mesh of its body.
 struct Pieces {
   int count = 0, inside = 0;
   bool all_inside() const { return inside == count; }
@@ -28,7 +28,8 @@ Pieces pieces_of(const Body& body, const water::Morison& m) {
   return out;
 }
 
-/// Database, mesh and volume of a body share its effects: what the mesh has, the database leaves.
+/// Claims of database, mesh and volume of a body: effects of the mesh are not taken from the
+/// database.
 void claim_body(const Scene& scene, const Body& body, std::vector<Claim>& out) {
   const std::string key = "body." + body.name + ".";
   if (body.hydro) {
@@ -59,7 +60,7 @@ void claim_body(const Scene& scene, const Body& body, std::vector<Claim>& out) {
     out.push_back({body.name, {buoyancy}, key + "volume", "its 'volume'", "leave out 'volume'"});
 }
 
-/// A table over poses takes the place of the main database.
+/// Claims of a pose table, which replaces the main database.
 void claim_table(const Scene& scene, const PoseTable& table, std::vector<Claim>& out) {
   std::vector<Effect> effects = {diffraction, added_mass, radiation};
   if (!find_named(scene.bodies, table.body)->waves_by_mesh())
@@ -68,8 +69,9 @@ void claim_table(const Scene& scene, const PoseTable& table, std::vector<Claim>&
                  "the pose table " + in_quotes(table.name), "use one table with all poses"});
 }
 
-/// An element that is half inside a mesh with the load of the undisturbed waves has it twice there.
-/// Whether the panels of a database left the element out, no one here knows: a note names it.
+/// Claims of a Morison element. A half that is inside a mesh with the load of the undisturbed waves
+/// would count it twice. Whether the database includes the element is unknown here: a note names
+/// it.
 void claim_inertia(const Scene& scene, const water::Morison& m, std::vector<Claim>& out) {
   const Body& body = *find_named(scene.bodies, m.body);
   if (!body.waves_by_mesh() || !m.added_mass_coefficient)

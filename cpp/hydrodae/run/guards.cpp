@@ -87,7 +87,7 @@ public:
 private:
   static constexpr double rounding = std::numeric_limits<double>::epsilon();
   const system::Regime& s_;
-  VectorX size_; ///< (lambda0,) largest positions whose rounding is bearable, else infinite
+  VectorX size_; ///< (lambda0,) largest positions with acceptable rounding, else infinite
 };
 
 /// Guard of friction with a bearing against Painleve's paradox.
