@@ -1,4 +1,4 @@
-/// Hydrostatics, added mass and radiation memory of a scene, cut down to the coordinates that move.
+/// Hydrostatics, added mass and radiation memory of a scene, for the moving coordinates.
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ namespace hydrodae::build {
 
 namespace {
 
-/// U: which coordinates of which body.
+/// Numbers the entries of U by coordinates of bodies.
 void number_coordinates(const model::Scene& scene, system::System& s) {
   system::HydroData& h = s.hydro;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -47,12 +47,13 @@ void number_coordinates(const model::Scene& scene, system::System& s) {
   }
 }
 
-/// Does the database of `scene` load this body? Else its columns and rows are zero.
+/// Returns whether the database of `scene` loads this body; otherwise its columns and rows are
+/// zero.
 bool is_wet(const model::Scene& scene, const system::HydroBody& hb) {
   return scene.bodies[static_cast<std::size_t>(hb.body)].hydro.has_value();
 }
 
-/// Where each coordinate of the bodies (6 n_bodies,) stands among `labels`, -1: nowhere.
+/// Index in `labels` of each coordinate of the bodies (6 n_bodies,); -1: missing.
 std::vector<int> all_places(const model::Scene& scene, const system::HydroData& h,
                             const std::vector<std::string>& labels) {
   std::unordered_map<std::string_view, int> place;
@@ -67,7 +68,7 @@ std::vector<int> all_places(const model::Scene& scene, const system::HydroData& 
   return out;
 }
 
-/// The same for each coordinate of U.
+/// Index in `labels` of each coordinate of U; -1: missing.
 std::vector<int> places(const model::Scene& scene, const system::HydroData& h,
                         const std::vector<std::string>& labels) {
   const std::vector<int> all = all_places(scene, h, labels);
@@ -77,7 +78,8 @@ std::vector<int> places(const model::Scene& scene, const system::HydroData& h,
   return out;
 }
 
-/// Rows for all six coordinates of all bodies (zero where the source gives none) and columns for U.
+/// Matrix with rows for all six coordinates of all bodies (zero if the source has none), and
+/// columns for U.
 MatrixX cut(const model::Scene& scene, const system::HydroData& h,
             const std::vector<std::string>& rows, const std::vector<std::string>& columns,
             const MatrixX& source) {
@@ -91,7 +93,7 @@ MatrixX cut(const model::Scene& scene, const system::HydroData& h,
   return out;
 }
 
-/// The rows of `all` (6 per body) that belong to U.
+/// Rows of `all` (6 per body) that belong to U.
 MatrixX moving_rows(const system::HydroData& h, const MatrixX& all) {
   MatrixX out(h.n_moving, all.cols());
   for (int u = 0; u < h.n_moving; ++u)
@@ -99,7 +101,7 @@ MatrixX moving_rows(const system::HydroData& h, const MatrixX& all) {
   return out;
 }
 
-/// Loads on coordinates that stay, but that nothing in the fit speaks of.
+/// Notes loads on fixed coordinates that the fit omits.
 void note_uncovered(const model::Scene& scene, const std::vector<std::string>& outputs,
                     system::System& s) {
   const std::vector<int> place = all_places(scene, s.hydro, outputs);
@@ -109,12 +111,12 @@ void note_uncovered(const model::Scene& scene, const std::vector<std::string>& o
         s.hydro.uncovered.push_back(label);
 }
 
-/// Real form of the fit: a pole p = a + i b with Im > 0 becomes two states (Re z, Im z); blocks
-/// that nothing drives are left out.
+/// Adds the real form of the fit: a pole p = a + i b with Im > 0 becomes two states (Re z, Im z);
+/// blocks without a drive are omitted.
 void add_memory(const model::Scene& scene, const hydro::MemoryFit& fit, system::System& s) {
   system::HydroData& h = s.hydro;
   const std::vector<int> input = places(scene, h, fit.inputs);
-  std::vector<int> column; // of `output_all`: block of the fit, twice for a pair
+  std::vector<int> column; // columns of `output_all`: block of the fit, twice for a pair
   for (int k = 0; k < fit.poles.size(); ++k) {
     const bool pair = fit.poles[k].imag() != 0.0;
     const int state = h.n_states;
@@ -151,8 +153,7 @@ void add_memory(const model::Scene& scene, const hydro::MemoryFit& fit, system::
   h.output = moving_rows(h, h.output_all);
 }
 
-/// Damping of each coordinate of U on itself, the largest over the table; zero where it is not
-/// read.
+/// Damping of each coordinate of U on itself, largest over the table; zero if it is not used.
 VectorX largest_damping(const model::Scene& scene, const system::HydroData& h) {
   VectorX out = VectorX::Zero(h.n_moving);
   const hydro::Database& db = *scene.database;
@@ -165,7 +166,7 @@ VectorX largest_damping(const model::Scene& scene, const system::HydroData& h) {
   return out;
 }
 
-/// A(w) or B(w) at the frequency of constant radiation.
+/// Table A(w) or B(w) at the frequency of constant radiation.
 MatrixX table_at(const model::Scene& scene, const std::vector<MatrixX>& table) {
   const hydro::Database& db = *scene.database;
   const double omega = *scene.hydro->frequency;
@@ -188,7 +189,7 @@ std::string hydro_label(const model::Scene& scene, const system::HydroBody& hb, 
   return model::hydro_label(scene, scene.bodies[hb.body], static_cast<std::size_t>(c));
 }
 
-/// Places of the lower triangle, by columns: of the same body, or coupled by added mass.
+/// Places in the lower triangle, by columns: of the same body, or coupled by added mass.
 static std::vector<Definite::Place> coupled_places(const system::HydroData& h) {
   std::vector<Definite::Place> out;
   for (Index v = 0; v < h.n_moving; ++v)
@@ -200,10 +201,11 @@ static std::vector<Definite::Place> coupled_places(const system::HydroData& h) {
   return out;
 }
 
-// Else a push moves the body towards the hand. Units differ: judged with a unit diagonal.
+// Refuses a mass matrix that is not positive definite. Units differ, so it is scaled to a unit
+// diagonal.
 void check_mass(const system::System& s) {
   const system::HydroData& h = s.hydro;
-  const auto own = [&](Index u, Index v) { // of the bodies, without the water
+  const auto own = [&](Index u, Index v) { // mass of the bodies without the water
     const system::HydroData::Coordinate &a = h.coordinates[static_cast<std::size_t>(u)],
                                         &b = h.coordinates[static_cast<std::size_t>(v)];
     if (a.hydro_body != b.hydro_body)

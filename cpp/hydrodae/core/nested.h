@@ -1,5 +1,5 @@
 #pragma once
-/// What a struct of fields says of itself beside `fields()`, read off its members.
+/// Properties of a struct of fields besides `fields()`, from its members.
 
 #include <concepts>
 #include <string_view>
@@ -7,11 +7,12 @@
 
 namespace hydrodae {
 
-/// Entries of a list that is read by its `type` name it as a constant; the key itself is no field.
+/// Struct of a list that is read by `type`: it names its type as a constant, and the key is no
+/// field.
 template <class T>
 concept NamedType = std::same_as<decltype(&T::type), const std::string_view*>;
 
-/// One sentence of meaning, "" if absent.
+/// Sentence of meaning; "" if absent.
 template <class T> constexpr std::string_view doc_of() {
   if constexpr (requires { T::doc; })
     return T::doc;
@@ -19,7 +20,7 @@ template <class T> constexpr std::string_view doc_of() {
     return "";
 }
 
-/// Calls `visit(name, member)` for each table that stands inside one of T: `initial` and `drive`.
+/// Calls `visit(name, member)` for each table inside one of T: `initial` and `drive`.
 template <class T, class Visit> void for_each_nested(const Visit& visit) {
   if constexpr (requires(T value) { value.initial; })
     visit("initial", &T::initial);

@@ -1,5 +1,5 @@
 #pragma once
-/// From the solution to the columns of the results.
+/// Columns of the results from the solution.
 
 #include <span>
 
@@ -11,26 +11,26 @@ namespace hydrodae::observe {
 using measure::ComponentLoad, measure::Observation;
 using system::BodyState, system::Regime;
 
-/// Fills rows of the results from what a Measure has summed and its observer sees. It changes
-/// nothing that a run goes on from.
+/// Fills rows of the results from the sums of a Measure and its observer. It does not affect the
+/// run.
 class Recorder {
 public:
   using Interpolant = measure::Measure::Interpolant;
 
   Recorder(const Regime& system, measure::Measure& measure);
 
-  /// The columns, in the order of `sample`.
+  /// Channels in the order of `sample`.
   const std::vector<Channel>& channels() const { return channels_; }
   std::size_t width() const { return width_; }
 
-  /// Fills one row at time `t` of the step begun (or at the start). Values of all channels one
-  /// after the other; length `width()`.
+  /// Fills one row at time `t` of the step (or at the start): values of all channels, of length
+  /// `width()`.
   void sample(double t, const Interpolant& at, std::span<double> row);
 
-  /// Fills the row of the end of the last closed step, where y, y' are given.
+  /// Fills the row at the end of the last closed step, from given y, y'.
   void look(const VectorX& y, const VectorX& yp, std::span<double> row);
 
-  /// The bodies, and y, at the last sample.
+  /// Bodies, and y, at the last sample.
   const std::vector<BodyState<double>>& bodies() const { return measure_.observer().bodies(); }
   const VectorX& state() const { return y_; }
 

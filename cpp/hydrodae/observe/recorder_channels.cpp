@@ -1,4 +1,5 @@
-/// Of the recorder: names, units and frames of all channels, and in the same order their values.
+/// Part of the recorder: names, units and frames of all channels, and in the same order their
+/// values.
 
 #include <set>
 
@@ -27,7 +28,7 @@ void Recorder::add_channel(std::string path, int width, std::string unit, std::s
       {std::move(path), width, std::move(unit), std::move(frame), std::move(description)});
 }
 
-/// The axes and the origin of a marker in the reference pose go with the last channel.
+/// Adds axes and origin of a marker in the reference pose to the last channel.
 void Recorder::describe_marker(const joint::Marker& marker) {
   const Vector3 origin =
       marker.point + (marker.body < 0 ? Vector3(0, 0, 0) : s_.bodies[marker.body].reference);
@@ -37,7 +38,7 @@ void Recorder::describe_marker(const joint::Marker& marker) {
                               {"origin", origin}};
 }
 
-/// What a force reports of itself stands beside its loads on bodies, by their names.
+/// Checks that channels of a force and its loads on bodies have different names.
 void Recorder::check_paths() const {
   std::set<std::string> paths;
   for (const Channel& channel : channels_)
@@ -189,7 +190,7 @@ void Recorder::fill_bodies(double*& out) {
       put(out, state.v);
       put(out, state.R * state.w);
       put(out, state.v_dot);
-      put(out, state.R * state.w_dot); // the part w x w of the turning axes vanishes
+      put(out, state.R * state.w_dot); // the term w x w vanishes
     }
     if (b.n_active < 6) {
       put(out, seen().supports[i].head<3>());
@@ -218,7 +219,7 @@ void Recorder::fill_joints(double*& out) {
       *out++ = o.constraints[k];
 }
 
-// r + R s,   v + R (w x s),   v' + R (w' x s + w x (w x s)), with s, w, w' in body axes.
+// Marker motion r + R s, v + R (w x s), v' + R (w' x s + w x (w x s)), with s, w, w' in body axes.
 void Recorder::fill_markers(double*& out) {
   for (const MarkerData& m : s_.markers) {
     const BodyState<double>& b = measure_.observer().bodies()[m.body];
@@ -272,7 +273,7 @@ void Recorder::fill_energy(double t, double*& out) {
   *out++ = measure_.balance_error(work);
 }
 
-/// From where the observer is.
+/// Fills a row from the observer's state.
 void Recorder::fill(double t, std::span<double> row) {
   double* out = row.data();
   fill_bodies(out);
