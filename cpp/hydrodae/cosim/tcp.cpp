@@ -130,15 +130,16 @@ private:
   control::Terminals terminals_;
   std::string host_;
   int port_;
-  bool serves_;                      ///< it listens; else it connects
+  bool serves_;                      ///< true: listens; false: connects
   double timeout_, connect_timeout_; ///< [s]
   std::unique_ptr<Protocol> protocol_;
-  std::optional<Listener> listener_;               ///< of a server, until the run ends
-  std::vector<Conversion> of_inputs_, of_outputs_; ///< from its units to those of the terminals
+  std::optional<Listener> listener_; ///< listener of a server, until the run ends
+  /// Conversions from its units to those of the terminals
+  std::vector<Conversion> of_inputs_, of_outputs_;
   std::vector<std::string> unit_notes_;
-  std::vector<double> in_; ///< in its units
+  std::vector<double> in_; ///< inputs in its units
   Socket socket_;          ///< closed before the first sampling instant
-  double t_ = 0.0;         ///< of the last exchange [s]
+  double t_ = 0.0;         ///< time of the last exchange [s]
   bool reset_ = false;
 };
 

@@ -15,7 +15,7 @@ namespace hydrodae::ensemble {
 /// A scene at its start: system, regime and consistent rates.
 struct Start {
   /// Throws ModelError or SolverError when the scene cannot start.
-  /// @param like of a start whose pattern serves where the equations are alike; null: none
+  /// @param like  start whose pattern serves if the equations are alike; null: none
   explicit Start(const model::Scene& scene, const Start* like = nullptr);
   Start(const Start&) = delete;
   Start& operator=(const Start&) = delete;
@@ -30,13 +30,13 @@ struct Start {
 /// What a run alone needs, in words; empty: it can be marched beside others.
 std::string alone_because(const Start& start);
 
-/// In what two scenes differ so that they cannot be marched side by side; empty: they can.
+/// Difference that prevents a common march of two scenes; empty: none.
 std::string apart_because(const Start& one, const Start& other);
 
 /// The outcome of one lane.
 struct Outcome {
   std::optional<RunStatistics> statistics; ///< absent: the run has left the march
-  std::string left;                        ///< why, with the time
+  std::string left;                        ///< reason, with the time
 };
 
 /// Marches at most `width` runs from 0 to their common end by the Runge-Kutta method of order 8

@@ -11,8 +11,9 @@ namespace hydrodae::ensemble {
 
 /// The outcome of one scene.
 struct Answer {
-  io::Attributes attributes; ///< those of a results file (session/output.h)
-  std::string alone;         ///< why the scene has to be run by itself; empty: `attributes` hold
+  io::Attributes attributes; ///< attributes as in a results file (session/output.h)
+  /// Reason why the scene must be run alone; empty: `attributes` are valid
+  std::string alone;
 };
 
 /// Runs the scenes in groups of at most `width` that can be marched side by side, in their order.

@@ -15,7 +15,7 @@ namespace hydrodae::events {
 /// One margin for each kink: its number on the side on which it is.
 class Kinks : public Source {
 public:
-  /// Null: no law of the system has any.
+  /// Makes the kinks of the system; null: no law has any.
   static std::unique_ptr<Kinks> make(system::Regime& regime, const VectorX& y);
 
   std::size_t count() const override { return state_.side.size(); }

@@ -15,7 +15,7 @@ public:
   /// Throws ModelError as Partings.
   LawEvents(system::Regime& regime, const VectorX& y);
 
-  /// Those that there are.
+  /// Existing event sources.
   std::vector<Source*> sources() const;
 
   /// At the end of a step without event.

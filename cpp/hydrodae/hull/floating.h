@@ -25,8 +25,8 @@ struct Floating {
 /// @param still a field without waves
 Floating floating(const Mesh& mesh, const WaveField& still, const Pose& pose, Workspace& work);
 
-/// The same in the reference pose of the body.
-/// @param origin of the body, above still water and in its axes
+/// Floating properties in the reference pose of the body.
+/// @param origin  origin of the body, above still water and in its axes
 Floating floating_in_reference_pose(const Mesh& mesh, const Vector3& origin);
 
 } // namespace hydrodae::hull

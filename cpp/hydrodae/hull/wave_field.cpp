@@ -25,12 +25,12 @@ void write(const Block& values, int first, int size, double* list) {
   std::copy_n(values.data(), std::min(block_size, size - first), list + first);
 }
 
-/// eta and its slopes.
+/// Elevation eta and its slopes.
 struct Surface {
   Block eta = Block::Zero(), by_x = Block::Zero(), by_y = Block::Zero();
 };
 
-/// The height s at which the fields are taken, and its derivatives by x, y, z.
+/// Height s of the fields, and its derivatives by x, y, z.
 struct Height {
   Block s, by_x, by_y, by_z;
 };

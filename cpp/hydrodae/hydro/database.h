@@ -30,7 +30,8 @@ struct DatabaseBody {
   Vector3 reference_point = Vector3::Zero(); ///< world point about which A, B and F are given [m]
   std::optional<Hydrostatics> hydrostatics;  ///< absent when the source does not hold it
   std::vector<std::string> modes;            ///< names of its coordinates beyond the rigid six
-  /// Of hydrostatics over the six and the modes (6 + n, 6 + n); of the six alone as above.
+  /// Hydrostatic stiffness of the six and the modes (6 + n, 6 + n), with the block of the six as
+  /// above.
   MatrixX mode_stiffness;
 };
 
@@ -50,7 +51,7 @@ struct MemoryFit {
 
 /// Radiation kernel on a uniform grid: f_rad(t) = -int_0^T K(tau) U(t - tau) dtau.
 struct RadiationKernel {
-  double step = 0.0;                ///< of the grid, which begins at 0 [s]
+  double step = 0.0;                ///< step of the grid, which begins at 0 [s]
   std::vector<std::string> inputs;  ///< coordinates that move, "<body>.<dof>"
   std::vector<std::string> outputs; ///< coordinates that are loaded, includes the inputs
   std::vector<MatrixX> values;      ///< per time K (n_outputs, n_inputs) [N/m, N, N m]
@@ -70,12 +71,14 @@ struct Database {
   std::vector<MemoryFit> fits;
 
   // Tables over frequency; each is read only for a scene that uses it.
-  VectorX omega;                               ///< (nw,) ascending [rad/s]
-  VectorX heading;                             ///< (nh,) ascending directions of travel [rad]
-  std::vector<Eigen::MatrixXcd> excitation;    ///< per heading (nw, n), per metre of amplitude
-  std::vector<Eigen::MatrixXcd> froude_krylov; ///< its part; empty where only the sum is known
-  std::vector<MatrixX> added_mass, damping;    ///< A(w), B(w): per frequency (n, n)
-  std::optional<RadiationKernel> kernel;       ///< likewise, and where the file holds one
+  VectorX omega;                            ///< (nw,) ascending [rad/s]
+  VectorX heading;                          ///< (nh,) ascending directions of travel [rad]
+  std::vector<Eigen::MatrixXcd> excitation; ///< per heading (nw, n), per metre of amplitude
+  /// Froude-Krylov part of the excitation; empty if only the sum is known
+  std::vector<Eigen::MatrixXcd> froude_krylov;
+  std::vector<MatrixX> added_mass, damping; ///< A(w), B(w): per frequency (n, n)
+  /// Kernel, if the scene uses it and the file has one
+  std::optional<RadiationKernel> kernel;
 };
 
 } // namespace hydrodae::hydro

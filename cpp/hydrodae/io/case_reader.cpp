@@ -35,14 +35,14 @@ toml::table parse_toml(const std::string& text, const std::string& name) {
   }
 }
 
-/// Where a table begins, or its key where it has no header (made by an override).
+/// Place where a table begins, or of its key if it has no header (made by an override).
 FilePlace table_place(const toml::table& root, const std::string& name) {
   const auto found = root.find(name);
   const toml::source_region& source = found->second.source();
   return place_of(source.path ? source : found->first.source());
 }
 
-/// [name], if the case has it.
+/// Table [name], if the case has it.
 template <class T>
 bool read_single(const toml::table& root, const std::string& name, Places& places, T& out) {
   const toml::node* node = root.get(name);
@@ -156,7 +156,7 @@ struct TableReader {
   }
 };
 
-/// The tables that there are.
+/// Reads the existing tables.
 model::Scene read_tables(const toml::table& root, const std::string& name) {
   model::Scene scene;
   const Table top{root, "the case", "", {name, 1, 1}, "", ""};
@@ -227,7 +227,7 @@ void read_databases(model::Scene& scene, const std::string& directory) {
                         "key 'databases' in [[pose_table]] " + in_quotes(table.name)));
 }
 
-/// Measured elevations that stand in files of their own.
+/// Reads measured elevations from their files.
 void read_records(model::Scene& scene, const std::string& directory) {
   for (sea::Wave& any : scene.waves) {
     auto* wave = any.as<sea::Measured>();
@@ -258,7 +258,7 @@ void read_meshes(model::Scene& scene, const std::string& directory) {
   }
 }
 
-/// Where FMUs of controllers are.
+/// Resolves the paths of FMUs of controllers.
 void find_fmus(model::Scene& scene, const std::string& directory) {
   for (model::Controller& any : scene.controllers) {
     auto* c = any.as<control::Fmu>();
@@ -305,7 +305,7 @@ model::Scene parse(const std::string& text, const std::string& directory,
 } // namespace
 
 model::Scene read_case(const std::string& path, const Overrides& overrides) {
-  std::error_code ignored; // what cannot be asked cannot be opened either
+  std::error_code ignored; // the following call reports files that do not exist
   if (std::filesystem::is_directory(path, ignored))
     throw CaseError({path}, "", "is a folder; give the case file in it");
   std::ifstream file(path, std::ios::binary);

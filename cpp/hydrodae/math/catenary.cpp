@@ -19,7 +19,7 @@ double weight_of(const Catenary& line) {
   return sum;
 }
 
-/// Least vertical force at the fairlead of a line on a bed: what floats may push it up.
+/// Least vertical force at the fairlead of a line on a bed: buoyant parts may push it up.
 double least_lift(const Catenary& line) {
   double sum = 0.0;
   for (const LinePart& part : line.parts)
@@ -58,7 +58,7 @@ template <class Function> double root(Function&& f, double low, double high) {
   return x;
 }
 
-/// V of a fairlead at height Z that pulls with H: heights grow with V.
+/// Vertical force V of a fairlead at height Z with the pull H: heights grow with V.
 double vertical(const Catenary& line, double H, double Z, double above) {
   double low = line.bed ? least_lift(line) : std::min(0.0, weight_of(line)),
          high = std::max(0.0, weight_of(line));

@@ -56,7 +56,7 @@ Cut usual_cut(const Irregular& wave, const Spectrum& s) {
   return {cut_below * s.m0, (1.0 - cut_above) * s.m0};
 }
 
-/// A cut, and a range that nobody gave no wider than what is covered.
+/// Applies a cut; a range that was not given is limited to the covered frequencies.
 Cut cut_to(const Irregular& wave, Cut cut, const Spectrum& s, const Band& covered) {
   if (!wave.frequency_range.empty())
     return cut;
