@@ -88,7 +88,7 @@ public:
     std::size_t span = 1, compared = 0;    ///< number of samples in a span, and in total
     double until = 0.0;                    ///< time of the last sample compared [s]
     std::vector<double> time;              ///< first sample of each span [s]
-    std::vector<std::vector<Apart>> apart; ///< by mover
+    std::vector<std::vector<Apart>> apart; ///< distance of the runs by mover
   };
   State state() const;
   void set(State state);

@@ -19,7 +19,8 @@ constexpr double rank_tolerance = 1e-9;
 constexpr double damping = 1e-12; ///< damping of the normal equations, whose diagonal is one
 /// Pivot of the normal equations above which a row is independent
 constexpr double certain = 1e-3;
-constexpr double surely_certain = 1e-8; ///< the same limit if too many rows would be in doubt
+/// Higher limit for the case that too many rows would be in doubt
+constexpr double surely_certain = 1e-8;
 constexpr std::size_t most_doubtful_rows = 200;
 
 /// Rows and columns of one component. `place` has one entry per row of `matrix`: scratch.

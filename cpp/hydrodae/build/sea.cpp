@@ -119,7 +119,8 @@ std::vector<std::string> labels_of(const model::Scene& scene, const system::Syst
 /// Databases of the excitation: that of the scene, and those of each pose table.
 struct Sources {
   std::unique_ptr<Source> main;
-  std::vector<std::vector<std::unique_ptr<Source>>> of_body; ///< by pose; empty: the main one
+  /// Sources by pose; empty: the main one
+  std::vector<std::vector<std::unique_ptr<Source>>> of_body;
   bool split = true; ///< true: all contain their Froude-Krylov part
   std::string symmetry;
 

@@ -17,7 +17,7 @@ struct Error : std::runtime_error {
 /// Place in a file that a person wrote.
 struct FilePlace {
   std::string file;         ///< file, or other source of a key: "--set solver.rtol"
-  int line = 0, column = 0; ///< from 1; 0: unknown
+  int line = 0, column = 0; ///< line and column, from 1; 0: unknown
 };
 
 /// Text "case.toml:12:3", as far as known.
@@ -31,7 +31,7 @@ struct CaseError : Error {
 
   FilePlace place;
   std::string key;   ///< path of the entry or key, such as "joint.hinge1.body_a"; "" without one
-  std::string fault; ///< what was found, what was expected, and the nearest valid name
+  std::string fault; ///< fault found, values expected, and the nearest valid name
 };
 
 /// Contradiction in the scene or to physics. `key` is the path of the faulty entry, such as

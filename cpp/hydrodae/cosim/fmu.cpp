@@ -67,7 +67,7 @@ struct Mapping {
     }
   }
 
-  /// That its numbers are turned into others, or that nobody knows what its unit is.
+  /// Notes that values are converted to other units, or that the meaning of a unit is unknown.
   void tell(const control::Fmu& c, const FmuVariable& v, const control::Terminal& to,
             const Conversion& by) {
     const std::string head = "controller " + in_quotes(c.name) + ": variable " + in_quotes(v.name) +
@@ -180,7 +180,7 @@ private:
   struct State {
     bool begun = false;
     double t = 0.0;  ///< [s]
-    std::string own; ///< of the FMU, as it serialises it
+    std::string own; ///< state of the FMU, as it serialises it
   };
 
   void set_parameters() {

@@ -20,7 +20,8 @@ namespace {
 #if defined(__aarch64__)
 constexpr const char* platforms[] = {"linux-aarch64", "aarch64-linux"};
 #else
-constexpr const char* platforms[] = {"linux64", "x86_64-linux"}; ///< of FMI 2 and 3
+/// Platform folders of FMI 2 and 3
+constexpr const char* platforms[] = {"linux64", "x86_64-linux"};
 #endif
 
 [[noreturn]] void refuse_fmu(const std::string& path, const std::string& why) {

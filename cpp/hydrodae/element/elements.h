@@ -180,7 +180,7 @@ public:
   bool absorbs = false;
   Work work = Work::spent;       ///< part of its work in the energy balance
   std::string_view at_rest_only; ///< reason why the slope at rest says little; empty: no reason
-  std::string lost; ///< for laws that `lost_at_rest`: the effect that a linear model lacks
+  std::string lost;              ///< effect that a linear model lacks, for laws that `lost_at_rest`
   /// Parts of a load on a body that are reported besides the load
   std::vector<std::string_view> parts;
   std::vector<std::string> names;     ///< (n,)

@@ -93,11 +93,11 @@ private:
   Lanes usual_jump_{0.0};   ///< see is_smooth
   std::vector<Column> k_;   ///< rates of the stages, and at the end
   std::vector<std::vector<Lanes>>
-      powers_;                   ///< of each stage and of the end: take-offs, then all loads
+      powers_;                   ///< powers at each stage and at the end: take-offs, then all loads
   std::vector<Lanes> work_;      ///< integrals of these powers [J]
   std::vector<Lanes> mean_from_; ///< integrals at the end of the ramp [J]
   std::vector<LaneModel::Balance> start_;
-  std::vector<Lanes> churned_; ///< of each balance, the integral of |power| [J]
+  std::vector<Lanes> churned_; ///< integral of |power| of each balance [J]
   long next_sample_ = 0;
   std::vector<double> row_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();

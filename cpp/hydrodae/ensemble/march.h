@@ -27,7 +27,7 @@ struct Start {
   VectorX y, yp;
 };
 
-/// What a run alone needs, in words; empty: it can be marched beside others.
+/// Reason why a run must be made alone; empty: it can join a march.
 std::string alone_because(const Start& start);
 
 /// Difference that prevents a common march of two scenes; empty: none.

@@ -28,7 +28,7 @@ public:
   /// @returns whether anything sticks or slips that did not
   bool settle(double t, const VectorX& y);
 
-  /// But for the signals of the laws, which the regime holds.
+  /// State without the signals of the laws, which the regime holds.
   Kinks::State state() const { return kinks_ ? kinks_->state() : Kinks::State{}; }
   void set(Kinks::State state);
 

@@ -13,7 +13,7 @@ struct Floating {
   double wetted_area = 0.0;            ///< [m2]
   double plane_area = 0.0;             ///< A [m2]
   double plane_x = 0.0, plane_y = 0.0; ///< integrals of x and y over the water plane [m3]
-  double plane_xx = 0.0, plane_xy = 0.0, plane_yy = 0.0; ///< of x^2, x y, y^2 [m4]
+  double plane_xx = 0.0, plane_xy = 0.0, plane_yy = 0.0; ///< integrals of x^2, x y, y^2 [m4]
 
   /// Buoyancy part of the stiffness about the body's origin, rows heave, roll, pitch: minus the
   /// derivative of the loads of still water by the pose [N/m, N, N m].

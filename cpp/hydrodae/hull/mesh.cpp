@@ -19,7 +19,7 @@ constexpr double no_area = 1e-12;
 
 struct Directed {
   int low, high, triangle;
-  bool forward; ///< from low to high
+  bool forward; ///< true: from low to high
 };
 
 std::string place(const Vertices& vertices, int i) {

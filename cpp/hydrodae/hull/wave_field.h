@@ -50,12 +50,12 @@ struct FieldLists {
 
 /// The waves at one instant, seen from one point, and scratch.
 struct WaveView {
-  double height = 0.0;                        ///< that the nodes' e^{+-ks} refer to [m]
+  double height = 0.0;                        ///< height that the nodes' e^{+-ks} refer to [m]
   double here = 0.0, most = 0.0, steep = 0.0; ///< eta at the origin, sum |A| [m], sum |A| k [-]
   Eigen::ArrayXXd waves;                      ///< (waves, 10): parts of the complex amplitudes ...
   Eigen::ArrayXXd nodes;                      ///< (nodes, 10): ... in the order of `Part`
   Eigen::ArrayXd angle, cosine, sine;         ///< angles of the waves, padded to blocks
-  std::vector<double> cosines, sines;         ///< of a block of points, by node
+  std::vector<double> cosines, sines;         ///< cosines and sines of a block of points, by node
 };
 
 class WaveField {

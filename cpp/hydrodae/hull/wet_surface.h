@@ -32,7 +32,7 @@ struct WetPoints {
   Columns weight;           ///< (capacity, 3) [m2], along the outward normal
   Eigen::ArrayXd height;    ///< height above still water [m]
   Eigen::ArrayXd dynamic;   ///< dynamic pressure [Pa]
-  Columns dynamic_gradient; ///< by the place in the world [Pa/m]
+  Columns dynamic_gradient; ///< gradient by the place in the world [Pa/m]
 };
 
 /// A triangle of the clipped part whose corners slide; its three points follow each other.
@@ -51,7 +51,7 @@ struct Workspace {
   Eigen::ArrayXd height;          ///< heights of the vertices above still water [m]
   Columns surface;                ///< eta, d eta/dx, d eta/dy at the vertices
   Columns areas;                  ///< areas of the triangles, world axes [m2]
-  std::vector<unsigned char> wet; ///< of each triangle: dry, wet or crossing (wet_surface.cpp)
+  std::vector<unsigned char> wet; ///< side of each triangle: dry, wet or crossing (wet_surface.cpp)
   std::vector<int> needed;        ///< vertices where the elevation is needed
   std::vector<char> is_needed;
   Columns needed_place, needed_surface;

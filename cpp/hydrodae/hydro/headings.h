@@ -27,7 +27,7 @@ public:
   /// than 1e-4 rad outside. A table of one heading covers that one only.
   std::optional<double> covered(double heading) const;
 
-  /// What each heading of the table counts, (nh,), at a heading from `covered`.
+  /// Weights of the headings of the table, (nh,), at a heading from `covered`.
   VectorX weights(double heading) const;
 
   /// How the table tests itself: every other heading is left out (the ends of a fan stay), and the

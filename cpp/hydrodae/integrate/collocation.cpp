@@ -79,7 +79,7 @@ private:
   double end_ = 0.0;                          ///< latest end of the present step [s]
   std::optional<linalg::SaddlePoint> saddle_; ///< matrix for the projection of the end of a step
   linalg::ProgressGuard guard_;
-  std::map<int, std::unique_ptr<StageNewton>> methods_; ///< by number of stages
+  std::map<int, std::unique_ptr<StageNewton>> methods_; ///< Newton's iterations by number of stages
   StageNewton* newton_ = nullptr;
   CollocationState state_;          ///< state without that of the parts below
   StageSolver::Start now_, before_; ///< ends of the last step and the one before, for a failed step

@@ -39,7 +39,8 @@ public:
   /// @param points  points without a flaw
   explicit Path(const std::vector<Vector3>& points);
 
-  double length() const { return samples_.back().arc; } ///< from the first point to the last [m]
+  /// Arc length from the first point to the last [m]
+  double length() const { return samples_.back().arc; }
 
   /// Distance n_i . w of d from the curve [m], i = 0, 1.
   template <class S> PointFunction<S> across(int i, const Vec3<S>& d) const;

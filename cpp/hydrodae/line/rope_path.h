@@ -1,7 +1,7 @@
 #pragma once
 /// Path of a taut rope over points and sheaves: straight parts, and arcs on the sheaves.
+///
 ///   X = C + R rho,   tau = a x rho,   e . rho = 0,   e . tau > 0      at the ends of each arc
-///   X = C + R rho,   tau = a x rho,   e . rho = 0,   e . tau > 0      where it comes on or leaves
 ///
 /// C, R: centre and radius of a sheave; a: its axis, which the rope circles by the right-hand rule;
 /// rho: direction from the centre to the point of contact X; e: direction of the straight part. A

@@ -31,7 +31,7 @@ struct LineLoad {
 };
 
 struct Catenary {
-  std::vector<LinePart> parts; ///< at least one
+  std::vector<LinePart> parts; ///< parts, at least one
   std::vector<LineLoad> loads; ///< (n_parts - 1,)
   bool bed = false;            ///< true: a flat bed at the height of the anchor carries the line
   double friction = 0.0;       ///< friction coefficient of the bed [-]

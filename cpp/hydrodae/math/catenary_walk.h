@@ -14,7 +14,7 @@ struct CatenaryWalk {
   using Row = CatenaryReach::Row; ///< derivatives by H, V and `above`
 
   const Catenary& line;
-  double H, V;  ///< at the fairlead
+  double H, V;  ///< forces at the fairlead
   double above; ///< height of the fairlead over the surface
   std::span<const double> strength = {};
 

@@ -29,8 +29,8 @@ public:
   /// All sets, by their least numbers; members ascend.
   struct Lists {
     std::vector<std::vector<Index>> members;
-    std::vector<std::size_t> set; ///< of each number
-    std::vector<Index> place;     ///< of each number in its set
+    std::vector<std::size_t> set; ///< set of each number
+    std::vector<Index> place;     ///< place of each number in its set
   };
   Lists lists() {
     Lists out{{}, std::vector<std::size_t>(parent_.size()), std::vector<Index>(parent_.size())};

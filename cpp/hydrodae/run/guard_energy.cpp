@@ -132,7 +132,7 @@ private:
 
   const system::Regime& s_;
   double rtol_, part_, at_singular_;
-  std::vector<bool> guided_; ///< by mechanism: true if joints and drives leave no free motion
+  std::vector<bool> guided_; ///< true for mechanisms that joints and drives leave no free motion
   PoseWatch& poses_;
 };
 

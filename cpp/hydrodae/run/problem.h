@@ -25,8 +25,8 @@ struct Problem {
   Problem(const Problem&) = delete;
   Problem& operator=(const Problem&) = delete;
 
-  /// The start is found on the stabilised equations; then the formulation may change, and the past
-  /// begins where the scene depends on it, which limits the steps.
+  /// Sets the formulation and begins the past, which limits the steps, from a start that was found
+  /// on the stabilised equations.
   void begin(const Instant& start);
 
   /// Fingerprint of the scene: digest of text, overrides and version, then `model::text_of_files`.

@@ -62,7 +62,8 @@ struct BodyData {
   /// False: taken from the motion at the start (no gravity, no scale given)
   bool time_scale_known = true;
   double time_scale = 1.0; ///< time that converts lengths into velocities [s]
-  double scale_mass = 1.0; ///< its mass, or if that is zero the largest mass of its group [kg]
+  /// Mass of the body, or if that is zero the largest mass of its group [kg]
+  double scale_mass = 1.0;
   /// Index of its rotation in System::rotations; -1: not free, or locked
   int followed = -1;
   /// Number of its mechanism (bodies connected by constraint rows); -1: fixed
@@ -181,7 +182,7 @@ struct DelayData {
 struct MarkerData {
   std::string name;
   int body = 0;
-  Vector3 point = Vector3::Zero(); ///< from the centre of gravity, body axes [m]
+  Vector3 point = Vector3::Zero(); ///< position relative to the centre of gravity, body axes [m]
   bool body_axes = false;          ///< true: velocity and acceleration are in body axes
 };
 
