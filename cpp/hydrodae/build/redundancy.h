@@ -8,9 +8,10 @@ namespace hydrodae::build {
 
 /// Treatment of joints that do not fit exactly.
 struct Fit {
-  double tolerance = 1e-6; ///< solver.tolerance_assembly, of a body's lever or of one radian
-  double end_time = 0.0;   ///< end of the comparison of drives [s]
-  bool force = false;      ///< true: keep misaligned rows
+  /// Tolerance solver.tolerance_assembly, relative to a body's lever or one radian
+  double tolerance = 1e-6;
+  double end_time = 0.0; ///< end of the comparison of drives [s]
+  bool force = false;    ///< true: keep misaligned rows
 };
 
 /// Marks and notes rows that depend on the others in every closed pose near y, within the tolerance

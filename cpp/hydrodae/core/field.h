@@ -36,7 +36,7 @@ inline const std::vector<std::string_view> any_word;
 
 /// Value, or a word for its source: "equilibrium" for a mass.
 template <class V> struct ValueOrWord {
-  V value;          ///< value as given, or from the word
+  V value;          ///< value as given, or as derived from the word
   std::string word; ///< "" for a value
 
   ValueOrWord& operator=(const V& given) {

@@ -61,7 +61,7 @@ public:
   Listener& operator=(const Listener&) = delete;
   ~Listener();
 
-  /// The next connection, within `timeout` [s].
+  /// Accepts the next connection, within `timeout` [s].
   Socket accept(double timeout);
 
 private:

@@ -618,7 +618,8 @@ void LaneModel::project(Lanes* y) {
     worst = widest(gap);
   }
   find_rates(y);
-  for (int pass = 0; pass < 2; ++pass) { // the matrix is of a pose a little off: twice
+  // two passes: the matrix belongs to a slightly different pose
+  for (int pass = 0; pass < 2; ++pass) {
     close();
     for (Index i = 0; i < s_.n_u; ++i)
       y[s_.u0 + i] += step_[static_cast<std::size_t>(i)];

@@ -258,7 +258,7 @@ Lanes March::error(double h) {
   return out;
 }
 
-/// Do the accelerations at the end of the step agree with those of the last stage? See
+/// Returns whether the accelerations at the end of the step agree with those of the last stage. See
 /// ExplicitRk::is_smooth: a slope that changes within the step shows here.
 bool March::is_smooth(double h) {
   for (std::size_t i = 0; i < error_.size(); ++i)

@@ -24,7 +24,7 @@ public:
 
   const std::vector<List>& lists() const { return lists_; }
 
-  /// Laws of all lists.
+  /// Number of laws in all lists.
   std::size_t size() const {
     std::size_t n = 0;
     for (const List& list : lists_)

@@ -233,7 +233,8 @@ std::optional<double> Switching::settle(double t, VectorX& y, VectorX& yp) {
     if (!correct(y, changes))
       break;
   }
-  for (std::size_t k = 0; k < size_.size(); ++k) // the projection may have moved it further in
+  // the projection may have increased the penetration
+  for (std::size_t k = 0; k < size_.size(); ++k)
     state_.depth[k] = s_.switches[k].kind == Kind::stop && s_.mode(s_.switches[k]) == Mode::open
                           ? std::max(0.0, -gap(k))
                           : 0.0;

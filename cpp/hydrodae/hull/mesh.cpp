@@ -213,7 +213,7 @@ int pierced(const Mesh& mesh, const Shell& shell, const Vertices& sunk, const Sh
   return -1;
 }
 
-/// Water must reach each shell from outside, and no volume may count twice.
+/// Checks that water reaches each shell from outside, and that no volume counts twice.
 void check_shells(const Mesh& mesh, const std::vector<Shell>& shells) {
   for (const Shell& shell : shells)
     if (shell.volume == 0.0)

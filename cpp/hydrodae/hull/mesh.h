@@ -9,7 +9,8 @@ namespace hydrodae::hull {
 
 using Vertices = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>; ///< (n, 3) [m]
 using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;   ///< (m, 3)
-using Columns = Eigen::Array<double, Eigen::Dynamic, 3>; ///< (n, 3), each coordinate contiguous
+/// (n, 3) array with contiguous coordinates
+using Columns = Eigen::Array<double, Eigen::Dynamic, 3>;
 
 /// Vertices are nearer than that to their origin, so that all integrals over the surface are
 /// finite: the second moments are sums of fifth powers [m].

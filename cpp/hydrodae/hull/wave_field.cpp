@@ -99,7 +99,7 @@ WaveField::WaveField(const Water& water, const std::vector<Wave>& waves, double 
       throw Error("a wave needs a frequency and a wavenumber above zero");
     most += std::abs(w.amplitude);
     square += w.amplitude * w.amplitude;
-    // Beyond, e^{-kd} is less than what rounding leaves.
+    // Beyond that, e^{-kd} is below the rounding error.
     finite_ |= w.wavenumber * water.depth < 40.0;
   }
   // Wheeler's heights are farther from the origin by the elevation: of irregular waves less than 8

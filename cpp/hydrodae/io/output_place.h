@@ -36,7 +36,7 @@ public:
   /// that was cut off, or it cannot be made.
   int open();
 
-  /// Gives the partial file its final name, in one step. Returns why not, "" when it worked.
+  /// Gives the partial file its final name, in one step. Returns the reason of a failure, or "".
   std::string finish();
 
   /// Removes the partial file again; it stays open until this object goes.

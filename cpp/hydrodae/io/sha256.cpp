@@ -66,8 +66,8 @@ void take_block(State& state, const unsigned char* block) {
 
 #if defined(__x86_64__)
 /// Takes one block with the SHA extensions of x86 (Intel 64 manual, vol. 2: SHA256RNDS2,
-/// SHA256MSG1,
-/// SHA256MSG2): four rounds at a time, the state as the words (A, B, E, F) and (C, D, G, H).
+/// SHA256MSG1, SHA256MSG2): four rounds at a time, the state as the words (A, B, E, F) and
+/// (C, D, G, H).
 __attribute__((target("sha,sse4.1"))) void take_block_by_instructions(State& state,
                                                                       const unsigned char* block) {
   const auto load = [](const void* from) __attribute__((target("sha,sse4.1"))) {

@@ -128,7 +128,7 @@ bool SaddlePoint::project(double t, VectorX& y, double accuracy) {
     matrix_.solve(rhs_, x_, rough);
     system::retract(s_, x_.head(s_.n_u), y);
   }
-  for (int i = 0; i < 2; ++i) { // twice: the matrix belongs to a slightly different pose
+  for (int i = 0; i < 2; ++i) { // two passes: the matrix belongs to a slightly different pose
     if (!e_.constraint_residual(t, y, yp0_, residual_))
       return false;
     rhs_.setZero();

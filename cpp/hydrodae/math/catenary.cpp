@@ -200,7 +200,7 @@ CatenaryHold hold(const Catenary& line, double X, double Z, double above) {
   if (!(X >= 0.0) || !std::isfinite(Z) || (line.bed && Z < 0.0))
     return none;
   const double size = std::max(line.length(), std::hypot(X, Z));
-  // Next to no pull: the line hangs straight down, and the rest is slack.
+  // Almost no pull: the line hangs straight down, and the rest is slack.
   const double little = speck(line), V_slack = vertical(line, little, Z, above);
   const CatenaryReach slack = reach(line, little, V_slack, above);
   if (X <= slack.X) {
@@ -249,7 +249,7 @@ std::vector<LinePoint> profile(const Catenary& line, const CatenaryHold& found, 
   const double H = std::max(found.horizontal, speck(line)), all = line.length();
   std::vector<LinePoint> out;
   for (const double at : s) {
-    // What is above the point hangs as it does; the walk over it alone ends at the point.
+    // The line above the point hangs as before; the walk over it alone ends at the point.
     Catenary upper = line;
     double left = std::max(0.0, all - at);
     std::size_t first = upper.parts.size();

@@ -14,7 +14,7 @@ public:
   explicit Sets(Index n) : parent_(static_cast<std::size_t>(n)) {
     std::iota(parent_.begin(), parent_.end(), Index{0});
   }
-  /// The least number of the set of i.
+  /// Least number in the set of i.
   Index root(Index i) {
     while (at(i) != i)
       i = at(i) = at(at(i));

@@ -45,7 +45,7 @@ struct LinearLimits {
   std::vector<Mode> modes;
 
   struct OfBody {
-    std::optional<Crossing> turn;  ///< [rad], beyond `largest_turn`
+    std::optional<Crossing> turn;  ///< rotation [rad], beyond `largest_turn`
     std::optional<Crossing> rise;  ///< vertical [m], beyond half the draught
     std::optional<Crossing> drift; ///< horizontal [m], beyond a tenth of the wave length
   };

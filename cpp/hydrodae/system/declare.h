@@ -16,7 +16,7 @@ struct Declaration {
     element::Work work = element::Work::spent;
   };
   std::vector<StateBlock> states;        ///< states in the order of y
-  std::vector<Load> loads;               ///< in the order in which the observer takes them
+  std::vector<Load> loads;               ///< loads in the order in which the observer takes them
   std::vector<std::array<int, 2>> pairs; ///< bodies that act on each other; -1: the ground
   /// Channels in the results besides the loads, see Observation::elements
   std::vector<Channel> channels;

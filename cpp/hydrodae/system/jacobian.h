@@ -41,7 +41,8 @@ struct MemoryPort {
   Eigen::Matrix<double, 6, 10> by_unknown;
 };
 
-/// The two parts of the Jacobian, kept apart so that any real or complex alpha can join them.
+/// Parts dF/dy and dF/dy' of the Jacobian, kept apart so that any real or complex alpha can join
+/// them.
 struct JacobianParts {
   std::vector<double> by_y, by_yp; ///< (nonzeros,) dF/dy and dF/dy'
   std::vector<MemoryPort> memory;  ///< coupling of each hydrodynamic body; with Part::condensed

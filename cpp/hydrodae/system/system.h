@@ -38,7 +38,7 @@ struct BodyData {
   /// True: a mode, whose x is its amplitude
   bool is_mode() const { return kind == Kind::mode; }
   double mass = 0.0;                   ///< [kg]
-  Matrix3 inertia = Matrix3::Zero();   ///< about the centre of gravity, body axes [kg m2]
+  Matrix3 inertia = Matrix3::Zero();   ///< inertia about the centre of gravity, body axes [kg m2]
   Vector3 reference = Vector3::Zero(); ///< centre of gravity in the reference pose [m]
   /// Position at the start; constant along locked translations [m]
   Vector3 position = Vector3::Zero();
