@@ -79,7 +79,7 @@ struct Mapping {
       unit_notes.push_back(head + "which it does not explain: taken for " + in_quotes(to.unit));
   }
 
-  /// To the group of its type, as number k of the row.
+  /// Adds a variable to the group of its type, as number k of the row.
   static void add(const FmuVariable& v, std::size_t k, FmuGroups& out) {
     const auto own =
         std::find_if(out.begin(), out.end(), [&](const auto& g) { return g.type == v.kind; });

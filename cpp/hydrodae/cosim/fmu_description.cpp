@@ -28,7 +28,7 @@ constexpr const char* platforms[] = {"linux64", "x86_64-linux"};
   throw CaseError(path + ": " + why);
 }
 
-/// What an FMU says of units: their meanings, and those of its types by their names.
+/// Units of an FMU: their definitions, and those of its types by their names.
 struct Units {
   std::map<std::string, Unit> meanings;
   std::map<std::string, std::string> of_types;

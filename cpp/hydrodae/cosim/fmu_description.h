@@ -18,7 +18,7 @@ struct FmuVariable {
   std::string unit_name;    ///< "bar"; empty if not declared
   std::optional<Unit> unit; ///< unit, if the FMU defines it
 
-  /// From its unit to that of a signal; empty where it declares no unit, or an unknown one.
+  /// Conversion from its unit to that of a signal; empty if it declares no unit, or an unknown one.
   /// Throws CaseError where they are units of different things.
   Conversion to(const std::string& unit_of_signal, const std::string& name_of_signal) const;
 };

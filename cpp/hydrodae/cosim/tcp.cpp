@@ -70,7 +70,7 @@ public:
   }
 
 private:
-  /// Whether the other program hears it or not.
+  /// Sends the last frame, whether the other program receives it or not.
   void leave(const std::string& error) {
     if (!socket_.open())
       return;
@@ -93,7 +93,7 @@ private:
     of_outputs_ = conversions("output", units.outputs, terminals_.outputs);
   }
 
-  /// From the units that the other program sends, "deg, deg/s", to those of the terminals.
+  /// Conversions from the units of the other program, "deg, deg/s", to those of the terminals.
   std::vector<Conversion> conversions(const std::string& what, const std::string& told,
                                       const std::vector<control::Terminal>& terminals) {
     std::vector<Conversion> out(terminals.size());

@@ -596,7 +596,7 @@ void LaneModel::move_positions(Lanes* y) {
   put(y);
 }
 
-/// As SaddlePoint::project does for one run, with the same limits.
+/// Projects as SaddlePoint::project does for one run, with the same limits.
 void LaneModel::project(Lanes* y) {
   using linalg::SaddlePoint;
   for (std::size_t k = 0; k < width; ++k) {

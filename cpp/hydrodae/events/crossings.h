@@ -22,7 +22,7 @@ public:
     out[0] = left(rate(t, y, yp));
   }
 
-  /// At the end of an accepted step. @returns whether it ends in a crossing
+  /// Takes the end of an accepted step. @returns whether it ends in a crossing
   bool accept(double t, const VectorX& y, const VectorX& yp);
 
   struct State {

@@ -21,10 +21,10 @@ public:
   std::size_t count() const override { return state_.side.size(); }
   void margins(double t, const VectorX& y, const VectorX& yp, std::span<double> out) override;
 
-  /// At an event at t [s]: puts each law on the side of its kink that its number has.
+  /// Puts each law on the side of its kink that its number has, at an event at t [s].
   void settle(double t, const VectorX& y);
 
-  /// At the end of a step without one: those that were on the kink may have left it.
+  /// Takes the end of a step without event: laws that were on the kink may have left it.
   void accept(double t, const VectorX& y);
 
   struct State {

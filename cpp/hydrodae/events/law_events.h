@@ -18,10 +18,10 @@ public:
   /// Existing event sources.
   std::vector<Source*> sources() const;
 
-  /// At the end of a step without event.
+  /// Takes the end of a step without event.
   void accept(double t, const VectorX& y);
 
-  /// At an event at t [s]: lets part what does so.
+  /// Parts the laws whose event is at t [s].
   void part(double t, const VectorX& y);
 
   /// Lets stick and slip what does so at t [s], and takes sides at kinks.

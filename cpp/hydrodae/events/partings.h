@@ -24,7 +24,7 @@ public:
   /// is in the step.
   double found(const Root& root, const Interpolant& at) override;
 
-  /// At an event: lets part what has reached its breaking load at t [s].
+  /// Parts the laws that have reached their breaking load at an event at t [s].
   void part(double t, const VectorX& y);
 
 private:

@@ -153,7 +153,7 @@ void Switching::margins_of(std::size_t k, double* out) const {
       out[0] = never;
       return;
     }
-    // What has just come off leaves slowly, and the integrator's error may be larger than its gap.
+    // A stop that has just opened separates slowly; the integrator's error may exceed its gap.
     const Motion m = motion(element);
     const double scale = motion_scale(element);
     const auto left = [&](double gap, double rate) {

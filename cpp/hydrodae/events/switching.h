@@ -97,7 +97,7 @@ private:
   /// Rate or load that counts as zero, in units of its scale
   static constexpr double resting = 1e-9;
 
-  /// For the time of its life the equations are stabilised, whatever the integrator solves.
+  /// Switches to the stabilised equations during its lifetime, whatever the integrator solves.
   class Stabilised {
   public:
     explicit Stabilised(system::Regime& s) : s_(s), formulation_(s.formulation) {

@@ -177,7 +177,7 @@ Vertices sunk(const Mesh& mesh, const Shell& shell) {
   return out;
 }
 
-/// Does the line from p to q pass through a triangle?
+/// Returns whether the line from p to q passes through a triangle.
 bool pierces(const Mesh& mesh, const std::array<Vector3, 2>& line, int triangle) {
   const Vector3 a = corner(mesh, triangle, 0), b = corner(mesh, triangle, 1),
                 c = corner(mesh, triangle, 2), normal = (b - a).cross(c - a),

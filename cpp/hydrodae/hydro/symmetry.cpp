@@ -170,7 +170,7 @@ bool keeps_added_mass(const Database& db, const std::vector<Coordinate>& all, co
   return true;
 }
 
-/// Do the forces of all pairs of headings that are images agree, and is there one?
+/// Returns whether the forces of all pairs of headings that are images agree, and there is a pair.
 bool keeps_forces(const Database& db, const Image& image, const VectorX& off) {
   bool any = false;
   for (Eigen::Index h = 0; h < db.heading.size(); ++h)

@@ -202,7 +202,7 @@ std::shared_ptr<const hydro::Database>
 read_database(model::Scene& scene, const std::string& directory, const std::string& path,
               const std::string& key, const std::string& what) {
   std::shared_ptr<const hydro::Database> out;
-  // In waves a fit is held against the tables; symmetry is judged by the damping, too.
+  // Waves need the tables, to check a fit; symmetry checks also use the damping.
   const bool waves = !scene.waves.empty();
   const std::string& radiation = scene.hydro->radiation;
   const bool judged = waves && (scene.hydro->axes == "yaw" || radiation == "exponential");

@@ -25,7 +25,7 @@ std::uint64_t number_at(std::string_view bytes, std::size_t at, std::size_t size
   return value;
 }
 
-/// Do the objects of the collection at `start` follow each other up to its end?
+/// Returns whether the objects of the collection at `start` follow each other up to its end.
 bool sound(std::string_view bytes, std::size_t start, std::uint64_t size) {
   std::uint64_t at = header;
   while (size - at >= header) {

@@ -97,7 +97,7 @@ __attribute__((target("sha,sse4.1"))) void take_block_by_instructions(State& sta
   _mm_storeu_si128(reinterpret_cast<__m128i*>(state.data() + 4), _mm_alignr_epi8(dchg, feba, 8));
 }
 
-/// Has this machine these instructions? (CPUID leaf 7: bit 29 of EBX)
+/// Returns whether this machine has these instructions (CPUID leaf 7: bit 29 of EBX).
 bool has_instructions() {
   unsigned a = 0, b = 0, c = 0, d = 0;
   return __get_cpuid_count(7, 0, &a, &b, &c, &d) != 0 && (b >> 29 & 1) != 0;

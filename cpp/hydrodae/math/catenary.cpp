@@ -142,7 +142,7 @@ bool iterate(const Catenary& line, double X, double Z, double above, double& H, 
   return false;
 }
 
-/// Do parts that float, or those above them, come down to the bed?
+/// Returns whether buoyant parts, or those above them, sag to the bed.
 bool sags_to_bed(const Catenary& line, double H, double V, double above) {
   if (!line.bed || may_lie(line) == line.parts.size())
     return false;

@@ -10,7 +10,7 @@
 
 namespace hydrodae::model {
 
-/// What the value of a key is; see `Member` for the short forms of words and matrix6.
+/// Kind of a key's value; see `Member` for the short forms of words and matrix6.
 enum class ValueKind {
   number,
   integer,
