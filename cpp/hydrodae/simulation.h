@@ -84,10 +84,10 @@ struct RunOptions {
 
 /// Integrates the scene from 0 to its end time and writes `output_path` (no file if empty), which
 /// gets its name at the end of the run; see ResultsFile. Throws ModelError if the scene cannot
-/// start, CaseError if `output_path` cannot be written or there is no matching checkpoint to
-/// resume, SolverError if the integration fails or the disk is full (the file then has status
-/// "failed" and keeps its results). The error of the motion is an estimate: it is reported and
-/// never stops a run.
+/// start. Throws CaseError if `output_path` cannot be written, or no matching checkpoint exists to
+/// resume from. Throws SolverError if the integration fails or the disk is full: the file then has
+/// status "failed" and keeps its results. The error of the motion is an estimate: it is reported
+/// and never stops a run.
 RunStatistics simulate(const model::Scene& scene, const std::string& output_path,
                        const Progress& progress = {}, const RunOptions& options = {});
 

@@ -18,7 +18,7 @@ struct Parts {
 /// Parts of each network, in the order of its first chamber.
 std::vector<Parts> networks(const Parts& all);
 
-/// Index of the chamber with this name; the number of chambers if there is none.
+/// Index of the chamber with this name; the number of chambers if missing.
 int index_of(const std::vector<Chamber>& chambers, const std::string& name);
 
 } // namespace hydrodae::air

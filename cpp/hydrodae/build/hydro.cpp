@@ -78,7 +78,7 @@ std::vector<int> places(const model::Scene& scene, const system::HydroData& h,
   return out;
 }
 
-/// Matrix with rows for all six coordinates of all bodies (zero if the source has none), and
+/// Matrix with rows for all six coordinates of all bodies (zero if missing in the source), and
 /// columns for U.
 MatrixX cut(const model::Scene& scene, const system::HydroData& h,
             const std::vector<std::string>& rows, const std::vector<std::string>& columns,

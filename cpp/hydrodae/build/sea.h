@@ -10,7 +10,7 @@ struct Sea {
   /// Components of one wave of the scene.
   struct System {
     std::vector<sea::Component> components;
-    std::string note; ///< note on their origin; "" if there is none
+    std::string note; ///< note on their origin; "" if missing
   };
   std::vector<System> systems;
   std::vector<sea::Component> all; ///< components of all systems, in their order

@@ -21,7 +21,7 @@ struct LatchingState {
 ///   held:     for `time`, then the friction load is zero
 ///   released: for `rest`, then ready
 ///
-/// The kernel tells whether the joint sticks; the rate cannot, because a creeping joint may stick
+/// The kernel reports whether the joint sticks; the rate cannot, because a creeping joint may stick
 /// when the friction becomes ready, without an event.
 class LatchingLaw final : public StatefulLaw<LatchingState> {
 public:

@@ -42,7 +42,7 @@ struct SaddlePoint::Pressed {
 
   explicit Pressed(const system::Regime& s) : ws(s) {}
 
-  /// Finds all laws that depend on the reaction of their joint; null if there are none.
+  /// Finds all laws that depend on the reaction of their joint; null: no such law.
   static std::unique_ptr<Pressed> find(const system::Regime& s);
 
   const system::ElementList& list(const system::Regime& s, std::size_t k) const {

@@ -51,8 +51,8 @@ void check_inertia(const Body& body, const std::array<bool, 6>& free) {
     check_tensor(body, tensor);
 }
 
-/// Checks the initial velocity: a locked coordinate has none, and a body with one free rotation
-/// turns about that axis only.
+/// Checks the initial velocity: zero along locked coordinates. A body with one free rotation turns
+/// about that axis only.
 void check_initial(const Body& body, const std::array<bool, 6>& free) {
   const bool turns = free[3] || free[4] || free[5];
   for (std::size_t i = 0; i < 3; ++i) {

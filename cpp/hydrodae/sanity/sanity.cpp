@@ -21,7 +21,7 @@ namespace {
 
 constexpr double far = 3.0, very_far = 10.0; ///< distance of a joint, in sizes of the body
 
-/// Largest radius of gyration about the rotation axes of a body [m]; about all axes if it has none.
+/// Largest radius of gyration about the rotation axes of a body [m]; about all for a fixed body.
 double gyration(const system::BodyData& b) {
   double largest = 0.0;
   for (int k = b.n_translations; k < b.n_active; ++k) {

@@ -26,7 +26,7 @@ struct Sum {
   std::vector<Component> components;
   double lost = 0.0; ///< part of the variance outside the range, beyond the usual one [-]
   std::string range; ///< description of that range
-  std::string note;  ///< note on the components; "" if there is none
+  std::string note;  ///< note on the components; "" if missing
 
   std::string lost_text() const; ///< "2.1 % of the variance lies outside 0.2 to 1.5 rad/s"
 };

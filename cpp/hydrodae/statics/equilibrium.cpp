@@ -58,8 +58,8 @@ bool take_statics(System& s) {
   return any;
 }
 
-/// Note on a direction, allowed by the constraints, in which forces drive the scene away; "" if
-/// there is none.
+/// Note on a direction, allowed by the constraints, in which forces drive the scene away; ""
+/// for a stable pose.
 std::string instability(const LinearMatrices& m, const VectorX& scale) {
   const MatrixX G = m.constraints * scale.asDiagonal();
   const MatrixX free = null_space(G);

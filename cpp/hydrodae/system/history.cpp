@@ -256,7 +256,7 @@ void History::forget() {
     state_.nodes.erase(state_.nodes.begin());
 }
 
-/// Last node at or before t, or the first node if there is none.
+/// Last node at or before t, or the first node if missing.
 std::size_t History::node_before(double t) const {
   std::size_t k = state_.nodes.size() - 1;
   while (k > 0 && state_.nodes[k].t > t)
