@@ -50,7 +50,7 @@ struct Arguments {
   std::string case_path, output;
   io::Overrides overrides;
   std::vector<std::string> libraries;
-  std::vector<std::string> words; ///< after --keys
+  std::vector<std::string> words; ///< words after --keys
   bool quiet = false;
   RunOptions options;
 };
@@ -61,7 +61,7 @@ inline std::string next_value(int argc, char** argv, int& i) {
   return argv[++i];
 }
 
-/// A time of at least 0 [s].
+/// Time of at least 0 [s].
 inline double seconds(const std::string& text) {
   double value = -1.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -70,7 +70,7 @@ inline double seconds(const std::string& text) {
   return value;
 }
 
-/// "KEY=VALUE"
+/// Adds an override "KEY=VALUE".
 inline void add_override(const std::string& text, io::Overrides& overrides) {
   const auto trimmed = [](const std::string& part) {
     const std::size_t first = part.find_first_not_of(' ');
@@ -84,7 +84,7 @@ inline void add_override(const std::string& text, io::Overrides& overrides) {
   overrides[key] = trimmed(text.substr(equals + 1));
 }
 
-/// Throws CaseError on words that are not understood.
+/// Parses the command line. Throws CaseError on unknown words.
 inline Arguments parse(int argc, char** argv) {
   Arguments arguments;
   for (int i = 1; i < argc; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-/// `hydrodae-solve --keys [TABLE [TYPE]]`: the keys of case files as text.
+/// Keys of case files as text, for `hydrodae-solve --keys [TABLE [TYPE]]`.
 
 #include <algorithm>
 #include <iomanip>
@@ -13,7 +13,7 @@
 
 namespace hydrodae::app {
 
-/// The table with this name; throws CaseError with the nearest one.
+/// Table with this name; throws CaseError with the nearest one.
 inline const model::TableInfo& find_table(const std::vector<model::TableInfo>& tables,
                                           const std::string& name, const std::string& sort) {
   std::vector<std::string> names;
@@ -25,7 +25,7 @@ inline const model::TableInfo& find_table(const std::vector<model::TableInfo>& t
   throw CaseError("there is no " + sort + " " + in_quotes(name) + suggestion(name, names));
 }
 
-/// A line for each table: name and meaning.
+/// Text with a line for each table: name and meaning.
 inline std::string tables_text(const std::vector<model::TableInfo>& tables) {
   std::ostringstream text;
   for (const model::TableInfo& table : tables)
@@ -33,7 +33,7 @@ inline std::string tables_text(const std::vector<model::TableInfo>& tables) {
   return text.str();
 }
 
-/// "required, > 0", "default 0", "0 to 1", "" for neither.
+/// Limits as text: "required, > 0", "default 0", "0 to 1"; "" for no limits.
 inline std::string limits_text(const model::FieldInfo& field) {
   std::vector<std::string> parts;
   if (field.required)
@@ -49,7 +49,7 @@ inline std::string limits_text(const model::FieldInfo& field) {
   return joined(parts);
 }
 
-/// Keys with unit, limits and meaning; those of inner tables by their dotted name.
+/// Text of keys with unit, limits and meaning; inner tables have dotted names.
 inline std::string keys_text(const model::TableInfo& table, const std::string& prefix = "") {
   std::ostringstream text;
   for (const model::FieldInfo& field : table.fields) {
@@ -64,7 +64,7 @@ inline std::string keys_text(const model::TableInfo& table, const std::string& p
   return text.str();
 }
 
-/// What `--keys` prints for these words. Throws CaseError on unknown names.
+/// Output of `--keys` for these words. Throws CaseError on unknown names.
 inline std::string keys_answer(const std::vector<std::string>& words) {
   const std::vector<model::TableInfo> tables = model::tables();
   if (words.empty())

@@ -29,7 +29,7 @@ using hydrodae::app::usage;
 volatile std::sig_atomic_t interrupted = 0;
 extern "C" void note_interrupt(int) { interrupted = 1; }
 
-/// Progress on stderr: a line that renews itself on a terminal, else a line every 2 s.
+/// Progress on stderr: a line that is updated on a terminal, else a line every 2 s.
 class Reporter {
 public:
   explicit Reporter(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
@@ -58,15 +58,15 @@ private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// " 1234 W (1100 to 1380)", without the part that is not known.
+/// Prints " 1234 W (1100 to 1380)", without unknown parts.
 void print_mean(double power, const std::optional<hydrodae::Interval>& interval) {
   std::printf(" %.4g W", power);
   if (interval)
     std::printf(" (%.3g to %.3g)", interval->low, interval->high);
 }
 
-/// "mean absorbed power after 30 s: pto1 1200 W (1100 to 1310), pto2 3.4 W (3.1 to 3.8), in all
-/// 1203 W (1100 to 1310); in brackets: 95 % interval of the sea state"
+/// Prints "mean absorbed power after 30 s: pto1 1200 W (1100 to 1310), pto2 3.4 W (3.1 to 3.8), in
+/// all 1203 W (1100 to 1310); in brackets: 95 % interval of the sea state".
 void print_power(const hydrodae::RunStatistics& statistics) {
   if (statistics.mean_power.empty())
     return;
@@ -94,14 +94,14 @@ void print_power(const hydrodae::RunStatistics& statistics) {
   std::printf("\n");
 }
 
-/// "controller pi: 2000 calls, 12 us each"
+/// Prints "controller pi: 2000 calls, 12 us each".
 void print_controllers(const hydrodae::RunStatistics& statistics) {
   for (const auto& c : statistics.controllers)
     std::printf("controller %s: %ld calls, %.3g us each\n", c.name.c_str(), c.calls,
                 1e6 * c.mean_time);
 }
 
-/// @returns whether the motion of everything is known to be reproducible to the end
+/// @returns whether the motion is known to be reproducible to the end
 bool print_accuracy(const hydrodae::RunStatistics& statistics) {
   const hydrodae::accuracy::Estimate& estimate = statistics.accuracy;
   if (statistics.at_rest) {
@@ -135,7 +135,7 @@ bool print_accuracy(const hydrodae::RunStatistics& statistics) {
 ExitCode run(const hydrodae::model::Scene& scene, const Arguments& arguments) {
   std::signal(SIGINT, note_interrupt);
   std::signal(SIGTERM, note_interrupt);
-  std::signal(SIGXFSZ, SIG_IGN); // a file over the limit of the shell: same message as a full disk
+  std::signal(SIGXFSZ, SIG_IGN); // file size limit of the shell: same message as for a full disk
   Reporter reporter(arguments.quiet);
   const hydrodae::RunStatistics statistics =
       hydrodae::simulate(scene, arguments.output, std::ref(reporter), arguments.options);

@@ -13,7 +13,7 @@ namespace {
 
 using Sort = Variable::Kind;
 
-/// Communication points k h and t + h differ by rounding: nearer than so many steps is there.
+/// Tolerance in steps: communication points k h and t + h differ by rounding.
 constexpr double nearness = 1e-9;
 
 std::string toml_number(double value) {
@@ -22,7 +22,7 @@ std::string toml_number(double value) {
   return text;
 }
 
-/// A basic string of TOML.
+/// Text as a basic string of TOML.
 std::string toml_text(const std::string& value) {
   std::string out = "\"";
   for (const char c : value) {
@@ -101,7 +101,7 @@ void Component::begin(double end_time) {
     scene = io::read_case(contents_.case_path, values);
   }
   cosim::join_tcp(scene);
-  run_.reset(); // it may have the port of the new one
+  run_.reset(); // it may hold the port of the new one
   phase_ = Phase::instantiated;
   try {
     run_ = std::make_unique<run::Simulation>(scene);

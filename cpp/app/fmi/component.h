@@ -1,5 +1,5 @@
 #pragma once
-/// One instance of an FMU, whatever version of FMI asks for it.
+/// Instance of an FMU, independent of the version of FMI.
 
 #include <map>
 #include <optional>
@@ -11,63 +11,63 @@
 
 namespace hydrodae::fmi {
 
-/// Where an importer is in the life of an instance, in both versions of the standard.
+/// Phase in the life of an instance, in both versions of the standard.
 enum class Phase { instantiated, initialising, stepping, terminated };
 
-/// A run of the case of the FMU between communication points. Inputs hold from one communication
-/// point to the next; parameters are numbers of the case, fixed when the run begins. All throw
+/// Run of the FMU's case between communication points. Inputs hold from one communication point to
+/// the next; parameters are numbers of the case, fixed when the run begins. All functions throw
 /// Error, with a message for the importer.
 class Component {
 public:
-  /// Not begun yet. Reads variables.txt of `resources`.
+  /// Instance before its run. Reads variables.txt of `resources`.
   explicit Component(const std::string& resources);
 
   const std::string& token() const { return contents_.token; }
 
-  /// Refuses `function` in any other phase.
+  /// Throws if `function` is called in any other phase.
   void require(const char* function, Phase phase) const;
 
   /// Reads the case and makes its run, at t = 0 s.
   /// @param start  time at which the importer begins [s]: cases begin at 0
-  /// @param stop  where the importer ends [s]; later than the end time of the case, it replaces it
+  /// @param stop  end of the importer [s]; if later, it replaces the end time of the case
   void begin(double start, std::optional<double> stop);
 
-  /// Behind `begin`: the run may go on.
+  /// Enters the stepping phase; call it after `begin`.
   void enter();
 
   using Type = Variable::Type;
 
-  /// Before the run, parameters and inputs; then inputs.
+  /// Sets parameters and inputs before the run, then inputs only.
   void set(Reference reference, Type type, double value);
   void set_text(Reference reference, const std::string& value);
 
-  /// Before the run, parameters and inputs; then all.
+  /// Gets parameters and inputs before the run, then all variables.
   double get(Reference reference, Type type);
 
-  /// Stays where it is until it is set, or the instance reset.
+  /// The reference is valid until the text is set or the instance reset.
   const std::string& get_text(Reference reference) const;
 
-  /// From t to t + h [s].
+  /// Advances the run from t to t + h [s].
   void step(double t, double h);
 
   double time() const { return run_ ? run_->time() : 0.0; } ///< [s]
 
-  /// Ends the run: controllers of the case that are other programs get a message.
+  /// Ends the run, and informs controllers in other programs.
   void finish();
 
-  /// As it was made.
+  /// Resets the instance to its creation.
   void reset();
 
-  /// All that the instance is now. What follows depends on it alone, bit for bit, in this instance
-  /// or another one of the same FMU, in this process or another one. See run::Simulation::state.
+  /// Complete state of the instance. The continuation depends on it alone, bit for bit, in any
+  /// instance of the same FMU and in any process. See run::Simulation::state.
   struct State {
     Phase phase = Phase::instantiated;
     double end_time = 0.0;
-    std::vector<double> held; ///< of the parameters and inputs, in their order
+    std::vector<double> held; ///< values of the parameters and inputs, in their order
     std::vector<std::string> texts;
     std::optional<run::State> run;
 
-    /// As run::State.
+    /// State as bytes, as in run::State.
     std::string bytes() const { return run::sealed(to_bytes(*this)); }
     static State from_bytes(const std::string& bytes) {
       return hydrodae::from_bytes<State>(run::unsealed(bytes));
@@ -86,11 +86,11 @@ private:
 
   Contents contents_;
   Phase phase_ = Phase::instantiated;
-  std::map<Reference, double> held_; ///< parameters, and what inputs begin with
+  std::map<Reference, double> held_; ///< parameters, and initial values of inputs
   std::map<Reference, std::string> texts_;
-  double end_time_ = 0.0; ///< in place of that of the case [s]; 0: that of the case
+  double end_time_ = 0.0; ///< end time that replaces that of the case [s]; 0: none
   std::unique_ptr<run::Simulation> run_;
-  std::map<std::string, std::size_t> inputs_; ///< of the run, by name
+  std::map<std::string, std::size_t> inputs_; ///< inputs of the run by name
 };
 
 } // namespace hydrodae::fmi

@@ -1,5 +1,5 @@
 #pragma once
-/// What lies in the folder resources/ of an FMU: the case, and which variable has which reference.
+/// Folder resources/ of an FMU: the case, and the references of its variables.
 
 #include <map>
 #include <string>
@@ -8,34 +8,34 @@
 
 namespace hydrodae::fmi {
 
-/// A variable of the FMU.
+/// Variable of the FMU.
 struct Variable {
   enum class Kind {
     time,
     parameter, ///< a value of the case, by its dotted key; fixed when the run begins
-    input,     ///< of run::Simulation, by its name
-    output     ///< a channel of one number, or one component of it
+    input,     ///< input of run::Simulation, by its name
+    output     ///< channel of one value, or one component of it
   };
-  /// All but parameters are numbers.
+  /// Type of a value; only parameters may be other than numbers.
   enum class Type { number, integer, boolean, text };
 
   Kind kind = Kind::time;
   std::string name;
   Type type = Type::number;
-  double start = 0.0; ///< of parameters and inputs; of a boolean 0 or 1
-  std::string text;   ///< the start of a text
+  double start = 0.0; ///< start value of parameters and inputs; for a boolean 0 or 1
+  std::string text;   ///< start value of a text
 };
 
 using Reference = unsigned;
 
 struct Contents {
-  std::string token; ///< of the model description: GUID, or instantiation token
+  std::string token; ///< token of the model description: GUID, or instantiation token
   std::string case_path;
   io::Overrides overrides;
   std::map<Reference, Variable> variables;
 };
 
-/// Reads variables.txt, whose lines are fields with tabs in between, the kind of line first:
+/// Reads variables.txt. Its lines are fields separated by tabs, beginning with the kind of line:
 ///
 ///   hydrodae-fmu  1
 ///   token         TOKEN
@@ -48,11 +48,11 @@ struct Contents {
 ///   input         REFERENCE  START  NAME
 ///   output        REFERENCE  NAME
 ///
-/// @param resources  the folder; case.toml and the files that it names lie beside variables.txt
-/// Throws CaseError without such a file, or at a line of another form.
+/// @param resources  folder with case.toml, its files and variables.txt
+/// Throws CaseError if the file is missing or a line has another form.
 Contents read_contents(const std::string& resources);
 
-/// The folder of a URI "file:///...", with %20 and the like decoded. Throws CaseError for others.
+/// Folder of a URI "file:///...", with percent-encoding decoded. Throws CaseError for other URIs.
 std::string folder_of_uri(const std::string& uri);
 
 } // namespace hydrodae::fmi

@@ -1,4 +1,4 @@
-/// The functions of FMI 2.0 for co-simulation; the standard says what each does.
+/// Functions of FMI 2.0 for co-simulation; the standard defines them.
 
 #include "hydrodae/cosim/fmi2.h"
 
@@ -73,7 +73,7 @@ HYDRODAE_VALUES(Real, Type::number)
 HYDRODAE_VALUES(Integer, Type::integer)
 HYDRODAE_VALUES(Boolean, Type::boolean)
 
-#undef HYDRODAE_VALUES // the next file may be compiled in one unit with this one
+#undef HYDRODAE_VALUES // the next file may be in the same compilation unit
 
 HYDRODAE_FMI fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference* references,
                                       std::size_t n, fmi2String* values) {

@@ -1,4 +1,4 @@
-/// The functions of FMI 3.0 for co-simulation; the standard says what each does.
+/// Functions of FMI 3.0 for co-simulation; the standard defines them.
 
 #include "hydrodae/cosim/fmi3.h"
 
@@ -8,7 +8,7 @@ using namespace hydrodae::fmi;
 
 namespace {
 
-/// Arrays of variables and of values are of one length where every variable is one number.
+/// Refuses arrays: all variables are scalars, so that there are as many variables as values.
 fmi3Status refuse_arrays(fmi3Instance i) { return nothing_of<fmi3Status>(i, 1, "arrays"); }
 
 } // namespace
@@ -91,7 +91,7 @@ HYDRODAE_VALUES(Float64, Type::number)
 HYDRODAE_VALUES(Int32, Type::integer)
 HYDRODAE_VALUES(Boolean, Type::boolean)
 
-#undef HYDRODAE_VALUES // the next file may be compiled in one unit with this one
+#undef HYDRODAE_VALUES // the next file may be in the same compilation unit
 
 HYDRODAE_FMI fmi3Status fmi3GetString(fmi3Instance i, const fmi3ValueReference* references,
                                       std::size_t count, fmi3String* values, std::size_t n) {

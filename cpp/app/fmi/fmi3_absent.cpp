@@ -1,5 +1,5 @@
-/// Functions that FMI 3.0 asks every FMU for co-simulation to have, and that this one has no use
-/// for: variables of other types, clocks, events, derivatives. Asked for nothing, they are content.
+/// Functions that FMI 3.0 requires of every FMU for co-simulation, and that this one does not need:
+/// variables of other types, clocks, events, derivatives. A request for none of them succeeds.
 
 #include "hydrodae/cosim/fmi3.h"
 #include "instance.h"
@@ -151,7 +151,7 @@ HYDRODAE_FMI fmi3Status fmi3ActivateModelPartition(fmi3Instance i, fmi3ValueRefe
   return nothing_of<fmi3Status>(i, 1, "clocks");
 }
 
-// Of model exchange; some importers look for all functions of the standard.
+// Functions of model exchange; some importers look up all functions of the standard.
 constexpr const char* exchange = "model exchange";
 
 HYDRODAE_FMI fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance i) {

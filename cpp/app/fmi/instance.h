@@ -1,5 +1,5 @@
 #pragma once
-/// What the C functions of FMI 2.0 and 3.0 have in common.
+/// Common part of the C functions of FMI 2.0 and 3.0.
 
 #include <cstddef>
 #include <cstring>
@@ -20,21 +20,21 @@
 
 namespace hydrodae::fmi {
 
-/// The same numbers in both versions of the standard.
+/// Status with equal numbers in both versions of the standard.
 enum class Status : int { ok, warning, discard, error, fatal };
 
-/// A component, and how messages reach the importer.
+/// Component with the message callback of the importer.
 struct Instance {
   using Log = std::function<void(Status, const char* category, const char* message)>;
 
   Component component;
   Log log;
-  std::optional<double> stop = {}; ///< FMI 2.0 gives it before the run begins [s]
+  std::optional<double> stop = {}; ///< stop time, which FMI 2.0 gives before the run begins [s]
   double start = 0.0;
 };
 
-/// The states that importers hold. One that is not there (any more) is refused, whatever its
-/// address: states are freed twice, or passed on to the wrong function.
+/// States held by importers. Unknown addresses are refused: importers may free a state twice, or
+/// pass another pointer.
 class HeldStates {
 public:
   static HeldStates& all() {
@@ -74,8 +74,8 @@ inline void require_place(const void* place) {
     throw CaseError("no place to read from or write to is given");
 }
 
-/// Does `work` on the instance; an exception becomes a message and a status. Nothing of C++ leaves
-/// the library.
+/// Calls `work` on the instance; an exception becomes a message and a status, because C++
+/// exceptions must not leave the library.
 /// @tparam S  status of either version
 template <class S, class Work> S call(void* instance, Work&& work) {
   if (!instance)
@@ -94,8 +94,8 @@ template <class S, class Work> S call(void* instance, Work&& work) {
   }
 }
 
-/// There are no clocks, events, derivatives or variables of other types: a request for `count` > 0
-/// of them is an error.
+/// Returns an error for `count` > 0 clocks, events, derivatives or variables of other types, which
+/// do not exist here.
 template <class S> S nothing_of(void* instance, std::size_t count, const char* what) {
   return call<S>(instance, [&](Instance&) {
     if (count > 0)
@@ -103,8 +103,8 @@ template <class S> S nothing_of(void* instance, std::size_t count, const char* w
   });
 }
 
-/// A new instance; null where it cannot be made, with a message to the importer.
-/// @param place  of resources/, from what the importer passes
+/// Creates an instance; null with a message to the importer if that fails.
+/// @param place  gives the folder resources/ from the arguments of the importer
 template <class Place>
 Instance* make_instance(const Instance::Log& log, const char* token, Place&& place) {
   try {
@@ -120,7 +120,7 @@ Instance* make_instance(const Instance::Log& log, const char* token, Place&& pla
 
 using Type = Variable::Type;
 
-/// @tparam T  double or int, of a boolean bool in FMI 3.0 and int in 2.0
+/// @tparam T  double or int; for a boolean bool in FMI 3.0 and int in 2.0
 template <class S, class T>
 S set_values(void* instance, Type type, const Reference* references, std::size_t count,
              const T* values) {
@@ -167,7 +167,7 @@ S get_texts(void* instance, const Reference* references, std::size_t count, cons
   });
 }
 
-/// Saves into a state that is there, or a new one.
+/// Saves the state into an existing object, or a new one.
 template <class S> S get_state(void* instance, void** state) {
   return call<S>(instance, [&](Instance& i) {
     require_place(state);

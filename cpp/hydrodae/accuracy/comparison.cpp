@@ -10,11 +10,11 @@ namespace hydrodae::accuracy {
 
 namespace {
 
-/// Part of the motion. An error above it is seen in any plot and in any statistic of single events;
-/// errors that grow pass from here to the whole motion within a few time constants.
+/// Error as part of the motion above which it is visible in plots and in statistics of single
+/// events. Growing errors pass from here to the whole motion within a few time constants.
 constexpr double reproducible = 0.05;
 
-constexpr std::chrono::milliseconds patience{100}; ///< between two looks for a request to stop
+constexpr std::chrono::milliseconds patience{100}; ///< time between two checks of a request to stop
 
 } // namespace
 
@@ -100,7 +100,7 @@ void Comparison::set(State state) {
   state_ = std::move(state);
 }
 
-/// All samples that are there of both.
+/// Compares all samples that both runs have given.
 void Comparison::compare() {
   while (!state_.first.empty() && !state_.second.empty()) {
     state_.until = state_.first.front().first;
@@ -136,9 +136,9 @@ void Comparison::double_spans() {
     apart.resize(most_spans / 2);
 }
 
-/// What errors of a group are compared with: turns with its largest motion, displacements with
-/// their own largest, but with no less than the tolerance of translations follows (MotionScale), or
-/// than counts as rest.
+/// Sizes that errors of a group are compared with: for rotations its largest motion; for
+/// displacements their own largest, but at least the one that the tolerance follows (MotionScale),
+/// or that counts as rest.
 std::vector<Apart> Comparison::measures() const {
   std::vector<Apart> out = state_.motion;
   std::vector<double> rest(out.size(), 1e-300);
@@ -169,7 +169,7 @@ Estimate Comparison::estimate(double divisor) const {
         error.parted = std::min(error.parted, state_.time[k]);
       if (part / divisor > reproducible)
         error.reproducible_until = std::min(error.reproducible_until, state_.time[k]);
-      // From there on errors are no longer small, and nothing is known of their ratio.
+      // From there on errors are not small, and their ratio is unknown.
       const double by = std::isfinite(error.reproducible_until) ? 1.0 : divisor;
       error.error.push_back(apart.both() / by);
       error.part.push_back(part / by);

@@ -1,5 +1,5 @@
 #pragma once
-/// The error of a run, from its difference to a second run of the same scene.
+/// Error of a run, from its difference to a second run of the same scene.
 
 #include <condition_variable>
 #include <deque>
@@ -16,20 +16,21 @@ namespace hydrodae::accuracy {
 /// Error of one body or line over a run.
 struct MoverError {
   std::string name;
-  std::vector<double> error; ///< largest at the samples of each span that both runs reached [m]
-  std::vector<double> part;  ///< the same as a part of the motion [-]
-  double motion = 0.0;       ///< of its group: the largest displacement from the start [m]
-  double largest = 0.0;      ///< of `part` [-]
-  double when = 0.0;         ///< time of it [s]
-  /// Where the error passes a twentieth of the motion [s]; infinite: it does not.
+  /// Error in each span: largest at the samples that both runs reached [m]
+  std::vector<double> error;
+  std::vector<double> part; ///< error as part of the motion [-]
+  double motion = 0.0;      ///< motion of its group: largest displacement from the start [m]
+  double largest = 0.0;     ///< largest value of `part` [-]
+  double when = 0.0;        ///< time of `largest` [s]
+  /// Time at which the error passes a twentieth of the motion [s]; infinite: never.
   double reproducible_until = std::numeric_limits<double>::infinity();
-  /// Where the two runs are a twentieth of the motion apart [s]; infinite: they are not.
+  /// Time at which the two runs are a twentieth of the motion apart [s]; infinite: never.
   double parted = std::numeric_limits<double>::infinity();
 };
 
 struct Estimate {
   std::string how;          ///< "a second run at rtol = 1e-05"
-  std::string missing;      ///< why it is missing, or ends at `until`; empty: it is complete
+  std::string missing;      ///< reason why it is missing, or ends at `until`; empty: complete
   double until = 0.0;       ///< time up to which the runs were compared [s]
   std::vector<double> time; ///< first sample of each span [s]
   std::vector<MoverError> movers;
@@ -37,43 +38,44 @@ struct Estimate {
   const MoverError* worst() const; ///< null: nothing moves, or nothing is known
 };
 
-/// Takes the samples of two runs, each from a thread of its own, and compares them one by one:
+/// Comparison of the samples of two runs, each from its own thread, one by one:
 ///
 ///   error = |first - second| / divisor
 ///
-/// With errors e and c e of the two the difference is (c - 1) e, so that the divisor is c - 1. From
-/// where the error passes a twentieth of the motion it is the difference itself.
+/// For errors e and c e of the two runs the difference is (c - 1) e: the divisor is c - 1. After
+/// the error passes a twentieth of the motion, the difference itself is the error.
 ///
-/// A span is one sample. Each time that there are `most_spans`, two become one with the larger
-/// difference: the memory does not grow with the length of the runs, and no difference is lost.
+/// A span is one sample. At `most_spans`, two spans merge into one with the larger difference: the
+/// memory is bounded, and no difference is lost.
 class Comparison {
 public:
   static constexpr std::size_t most_spans = 16384;
-  static constexpr std::size_t most_ahead = 10000; ///< samples that wait for the slower run
+  /// Number of samples that may wait for the slower run
+  static constexpr std::size_t most_ahead = 10000;
 
-  /// @param in_turn the second run follows the first, whose samples all wait for it
+  /// @param in_turn  true: the second run follows the first, whose samples all wait for it
   Comparison(const system::Regime& first, bool in_turn);
 
-  /// The state of the first run at the end of a step, with its coordinates over turns.
+  /// Takes the state of the first run at the end of a step, with its coordinates over turns.
   void moved(const VectorX& y, const std::vector<double>& turns);
 
-  /// The next sample of the first run, at `time` [s].
-  /// @param go_on asked while the run waits for the other one; false: it waits no longer
+  /// Takes the next sample of the first run, at `time` [s].
+  /// @param go_on  called while the run waits for the other one; false: it stops waiting
   void first(double time, const VectorX& y, const std::function<bool()>& go_on);
 
-  /// The next sample of the second run. False when nothing is to follow: the first has been given
-  /// up.
+  /// Takes the next sample of the second run. Returns false if no more are needed because the first
+  /// run was given up.
   bool second(const VectorX& places);
 
-  /// No more samples of that run.
+  /// Ends the samples of a run.
   void end_first();
   void end_second();
 
-  /// Waits for the end of the second run, for a tenth of a second at most. @returns whether it has
+  /// Waits for the end of the second run, for at most a tenth of a second. @returns whether it has
   /// ended
   bool wait_for_second();
 
-  /// While it is set, a second run that is ahead does not wait for the first, which waits for it.
+  /// Sets whether a second run that is ahead continues without waiting for the first.
   void let_pass(bool second);
 
   struct State {
@@ -81,17 +83,17 @@ public:
     std::deque<VectorX> second;
     bool second_ended = false;
     VectorX start;
-    std::vector<double> turns0;            ///< at the start
-    std::vector<Apart> motion;             ///< by group
-    std::size_t span = 1, compared = 0;    ///< samples in a span, and in all
+    std::vector<double> turns0;            ///< turns at the start
+    std::vector<Apart> motion;             ///< motion by group
+    std::size_t span = 1, compared = 0;    ///< number of samples in a span, and in total
     double until = 0.0;                    ///< time of the last sample compared [s]
     std::vector<double> time;              ///< first sample of each span [s]
-    std::vector<std::vector<Apart>> apart; ///< by mover
+    std::vector<std::vector<Apart>> apart; ///< distance of the runs by mover
   };
   State state() const;
   void set(State state);
 
-  /// Of all samples that both runs have given.
+  /// Error estimate from all samples that both runs have given.
   Estimate estimate(double divisor) const;
 
 private:

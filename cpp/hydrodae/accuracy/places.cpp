@@ -11,7 +11,7 @@ namespace {
 
 constexpr Index n_pose = 12; ///< numbers of a pose: r and R
 
-/// Angle of R_a^T R_b, by the sine of half of it, which is exact for small angles.
+/// Angle of R_a^T R_b, from the sine of half of it, which is exact for small angles.
 double turn(const double* a, const double* b) {
   using Map = Eigen::Map<const Matrix3>;
   const double half = (Map(a) - Map(b)).norm() / std::sqrt(8.0);
@@ -51,7 +51,7 @@ Movers::Movers(const system::Regime& s)
 }
 
 void Movers::places(const VectorX& y, VectorX& out) {
-  system::unpack<double>(s_, y.data(), y.data(), bodies_); // the accelerations are not read
+  system::unpack<double>(s_, y.data(), y.data(), bodies_); // the accelerations are not used
   out.resize(n_places_);
   for (const Mover& m : all_) {
     if (m.nodes.empty()) {

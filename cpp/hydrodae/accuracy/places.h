@@ -1,5 +1,5 @@
 #pragma once
-/// Where the bodies and lines of a scene are at one sample, for the comparison of two runs.
+/// Places of the bodies and lines of a scene at one sample, for the comparison of two runs.
 
 #include <string>
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace hydrodae::accuracy {
 
-/// How far a body or line is apart in two states [m]: the displacement of the centre of gravity, or
-/// the largest of a node; and the turn of a body times its lever, which is the distance of its
-/// farthest joint or the radius of gyration.
+/// Distance of a body or line between two states [m]: displacement of the centre of gravity, or the
+/// largest of a node; and rotation of a body times its lever, the distance of its farthest joint or
+/// the radius of gyration.
 struct Apart {
   double moved = 0.0, turned = 0.0;
   double both() const { return std::max(moved, turned); }
@@ -20,7 +20,7 @@ struct Apart {
   }
 };
 
-/// What moves in a scene: bodies, and lines with the places of their nodes.
+/// Moving parts of a scene: bodies, and lines with the places of their nodes.
 class Movers {
 public:
   explicit Movers(const system::Regime& system);
@@ -29,22 +29,22 @@ public:
   Index width() const { return n_places_; } ///< numbers of a sample
   const std::string& name(std::size_t mover) const { return all_[mover].name; }
 
-  /// Bodies that joints or loads connect, and each line, are a group of their own: errors count
-  /// against the largest motion of the group.
+  /// Group of a mover. Bodies connected by joints or loads, and each line, form a group: errors
+  /// count relative to the largest motion of the group.
   std::size_t group(std::size_t mover) const { return all_[mover].group; }
   std::size_t n_groups() const { return n_groups_; }
-  double lever(std::size_t mover) const { return all_[mover].lever; } ///< [m]; 0 of lines
+  double lever(std::size_t mover) const { return all_[mover].lever; } ///< lever [m]; 0 for lines
 
-  /// Of a state y: poses of the bodies (r, then R column by column) and places of the nodes
+  /// Writes the poses of the bodies (r, then R column by column) and places of the nodes at y
   /// (n_places,).
   void places(const VectorX& y, VectorX& out);
 
   Apart apart(std::size_t mover, const VectorX& a, const VectorX& b) const;
 
-  /// Largest turn of each group about its joints [m], times the lever: these count full turns,
-  /// which poses do not show.
-  /// @param turns, start coordinates of all motions now and at the start
-  /// @param motion (n_groups,) is widened by it
+  /// Widens the motion of each group by its largest rotation about its joints, times the lever [m]:
+  /// it counts full turns, which poses do not show.
+  /// @param turns, start  coordinates of all motions now and at the start
+  /// @param motion  (n_groups,) updated
   void widen(const std::vector<double>& turns, const std::vector<double>& start,
              std::vector<Apart>& motion) const;
 
@@ -52,12 +52,12 @@ private:
   struct Mover {
     std::string name;
     std::size_t group = 0;
-    std::size_t body = 0;     ///< in System::bodies, where there are no nodes
+    std::size_t body = 0;     ///< index in System::bodies, for movers without nodes
     double lever = 0.0;       ///< [m]
-    Index first = 0;          ///< in `places`
-    std::vector<Index> nodes; ///< of a line: where they stand in y, from z0 on
+    Index first = 0;          ///< offset in `places`
+    std::vector<Index> nodes; ///< offsets in y of the nodes of a line, from z0 on
   };
-  struct Turning { ///< a coordinate that is an angle
+  struct Turning { ///< coordinate that is an angle
     std::size_t motion = 0, group = 0;
     double lever = 0.0;
   };

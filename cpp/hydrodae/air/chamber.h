@@ -7,26 +7,27 @@
 
 namespace hydrodae::air {
 
-/// The air outside, to which outlets lead.
+/// Air outside, into which outlets lead.
 struct Atmosphere {
   double pressure = 101325.0; ///< p_a, absolute [Pa]
-  double density = 1.225;     ///< rho_a [kg/m3]; both of the standard atmosphere at sea level
+  /// Density rho_a [kg/m3]; both for the standard atmosphere at sea level
+  double density = 1.225;
 };
 
-/// Table [[chamber]]: air that pistons press. Its mass M [kg] is a state.
+/// Table [[chamber]]: air compressed by pistons. Its mass M [kg] is a state.
 ///
 ///   V = V0 - sum_k S_k s_k                      s_k: coordinates of its pistons
 ///   (p_a + p) / p_a = (rho / rho_a)^n           rho = M / V;  n: exponent
 ///   M' = - sum of the mass flows of its outlets
 ///   load on s_k: -S_k p                         p: gauge pressure [Pa]
 ///
-/// (Falcao, Henriques, Renewable Energy 85 (2016) 1391-1424.) The state is the mass, not the
-/// pressure: a shut chamber keeps p V^n, and a network its air, to rounding. The energy stored
-/// against the atmosphere, E = M (e - e_a) + p_a (V - M / rho_a) with e the internal energy, obeys
+/// (Falcao, Henriques, Renewable Energy 85 (2016) 1391-1424.) With the mass as state, a closed
+/// chamber keeps p V^n, and a network its air, to rounding. The energy stored against the
+/// atmosphere, E = M (e - e_a) + p_a (V - M / rho_a) with e the internal energy, satisfies
 ///
 ///   E' = p sum S_k s_k' - sum m (h - h_a)       h - h_a = int dp / rho
 ///
-/// so that what pistons put in is stored, or taken by outlets.
+/// so that the work of pistons is stored, or leaves through outlets.
 struct Chamber {
   static constexpr std::string_view doc =
       "Air between pistons and outlets: an air chamber, or a tank. Its pressure loads the pistons.";
@@ -51,7 +52,7 @@ struct Chamber {
   }
 };
 
-/// Table [[piston]]: a coordinate that presses the air of a chamber, such as the displacement of a
+/// Table [[piston]]: coordinate that compresses the air of a chamber, such as the displacement of a
 /// body on a slide or the amplitude of a mode.
 struct Piston {
   static constexpr std::string_view doc =

@@ -3,8 +3,8 @@
 
 namespace hydrodae::air {
 
-/// Turbine whose flow is a power of the pressure, Phi = c |Psi|^e sign Psi: axial impulse turbines
-/// have e of about 0.5, biradial ones 0.6. Below Psi_l it is linear:
+/// Turbine whose flow is a power of the pressure, Phi = c |Psi|^e sign Psi: e is about 0.5 for
+/// axial impulse turbines, 0.6 for biradial ones. Below Psi_l it is linear:
 ///
 ///   Phi = c Psi (Psi^2 + Psi_l^2)^((e - 1) / 2)
 struct PowerTurbine : Turbine {

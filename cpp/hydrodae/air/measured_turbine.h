@@ -3,7 +3,7 @@
 
 namespace hydrodae::air {
 
-/// Turbine by measured points of Phi over Psi, the same both ways.
+/// Turbine with measured points of Phi over Psi, equal in both directions.
 struct MeasuredTurbine : Turbine {
   static constexpr std::string_view type = "turbine";
   static constexpr std::string_view doc =

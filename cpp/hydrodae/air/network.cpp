@@ -10,7 +10,7 @@ namespace hydrodae::air {
 
 namespace {
 
-/// Part of the pressure of the atmosphere that one unit of tolerance means.
+/// Size of one unit of tolerance, as part of the pressure of the atmosphere.
 constexpr double small_pressure = 0.01;
 
 } // namespace
@@ -42,7 +42,7 @@ Network::Network(Parts of, std::vector<double> masses, bool still)
   name_channels();
 }
 
-/// Masses of the air, then speeds of rotors.
+/// Names the states: masses of the air, then speeds of rotors.
 void Network::name_states() {
   for (const Chamber& c : parts_.chambers) {
     element::Unknown mass{unknowns.empty() ? "mass" : c.name + "_mass", "kg"};
@@ -87,7 +87,7 @@ void Network::add_way(AnyOutlet& outlet) {
   ways_.push_back(way);
 }
 
-/// Joins chambers by the outlets that let air through where nothing moves.
+/// Joins chambers by the outlets that are open at rest.
 void Network::find_rest() {
   rest_.resize(parts_.chambers.size());
   std::iota(rest_.begin(), rest_.end(), 0);
@@ -112,7 +112,7 @@ void Network::evaluate(double, const Dual* in, const double* held, Dual* out) co
   answer(in, held, out);
 }
 
-/// By dual numbers; the rates of the pistons do not count.
+/// Jacobian by dual numbers, without the rates of the pistons.
 void Network::jacobian(double, const double* in, const double* held, double* J) const {
   const int n_in = shape.n_in(), n_out = shape.n_out();
   thread_local std::vector<Dual> x, y;
@@ -144,7 +144,7 @@ void Network::kinks(double, const double* in, const double* held, double* out) c
   }
 }
 
-/// Air that is shut in stays what it was where it was shut in.
+/// Network whose closed chambers keep the air that was enclosed.
 std::shared_ptr<const element::Elements> Network::started(const double* in) const {
   std::vector<double> masses = masses_;
   for (std::size_t c = 0; c < parts_.chambers.size(); ++c) {

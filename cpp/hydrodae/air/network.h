@@ -1,5 +1,5 @@
 #pragma once
-/// Chambers that share their air, as one law: an own state for each chamber, and ports along the
+/// Chambers connected by outlets, as one law: one state for each chamber, and ports along the
 /// coordinates of all their pistons.
 
 #include <deque>
@@ -12,7 +12,7 @@
 
 namespace hydrodae::air {
 
-/// One network. Its pistons are its coordinates, its chambers' masses its states.
+/// Network of chambers. Its coordinates are the pistons, its states the masses of the chambers.
 class Network final : public element::Elements {
 public:
   explicit Network(Parts of);
@@ -36,10 +36,10 @@ private:
     S gauge, density; ///< [Pa], [kg/m3]
   };
   struct Way {
-    int from = 0, to = -1; ///< chambers; -1: the atmosphere
-    int kink = -1;         ///< place of its side behind `side_at`; -1: it cannot jump
-    int signal = -1;       ///< among the signals; -1: nothing is written to it
-    int rotor = -1;        ///< of its speed among the states; -1: no such speed
+    int from = 0, to = -1; ///< chambers; to = -1: the atmosphere
+    int kink = -1;         ///< index of its side after `side_at`; -1: no kink
+    int signal = -1;       ///< index among the signals; -1: no signal
+    int rotor = -1;        ///< index of its speed among the states; -1: no rotor
   };
 
   Network(Parts of, std::vector<double> masses, bool still);
@@ -64,13 +64,14 @@ private:
   double heat(int chamber, const std::vector<Air<double>>& air) const;
 
   Parts parts_;
-  std::vector<int> chamber_of_; ///< of each piston
-  std::vector<Way> ways_;       ///< of each outlet
-  int n_states_ = 0;            ///< chambers and rotors
-  std::vector<double> masses_;  ///< at the start [kg]
-  std::vector<int> rest_;       ///< which chambers share their air at rest; -1: with the atmosphere
-  bool begun_ = false;          ///< masses are those of a start, not of the reference pose
-  bool still_ = false;          ///< at rest, without states
+  std::vector<int> chamber_of_; ///< chamber of each piston
+  std::vector<Way> ways_;       ///< connection of each outlet
+  int n_states_ = 0;            ///< number of chambers and rotors
+  std::vector<double> masses_;  ///< masses at the start [kg]
+  /// Group of chambers that share air at rest; -1: with the atmosphere
+  std::vector<int> rest_;
+  bool begun_ = false; ///< true: masses of a start; false: of the reference pose
+  bool still_ = false; ///< true: at rest, without states
   std::deque<std::string> texts_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The equations of a network, for numbers and dual numbers.
+/// Equations of a network, for doubles and dual numbers.
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace hydrodae::air {
 
-/// V0 - sum S s [m3].
+/// Remaining volume V0 - sum S s [m3].
 template <class S> S Network::room_left(std::size_t chamber, const S* x) const {
   S out(parts_.chambers[chamber].volume);
   for (std::size_t k = 0; k < parts_.pistons.size(); ++k)
@@ -18,7 +18,7 @@ template <class S> S Network::room_left(std::size_t chamber, const S* x) const {
   return out;
 }
 
-/// The same; no number where no air is left, or a piston is at the roof.
+/// Volume of a chamber; NaN if no air is left or a piston is at the roof.
 template <class S> S Network::volume(std::size_t chamber, const S* x) const {
   const S out = room_left(chamber, x);
   bool left = out > S(0);
@@ -50,8 +50,7 @@ template <class S> void Network::find_air(const S* in, std::vector<Air<S>>& air)
   }
 }
 
-/// At rest: the density of the atmosphere in chambers that are open to it, else that of the air
-/// that they share.
+/// Air at rest: density of the atmosphere in open chambers, else of the air that they share.
 template <class S> void Network::share(const S* x, std::vector<Air<S>>& air) const {
   for (std::size_t c = 0; c < air.size(); ++c)
     air[c].volume = volume(c, x);
@@ -80,15 +79,15 @@ inline Held Network::held_of(const Way& way, const double* held) const {
           held && way.signal >= 0 ? held + way.signal : nullptr};
 }
 
-/// What goes through one outlet; no number beyond the data of a turbine.
+/// Flow through one outlet; NaN beyond the data of a turbine.
 template <class S> struct Network::Stream {
   S drop;
   Inlet<S> in;
   Held held;
-  S flow; ///< out of its chamber [kg/s]
+  S flow; ///< flow out of its chamber [kg/s]
 };
 
-/// Of a turbine: a state, or what is held. No number where its rotor stands still.
+/// Speed of a turbine: a state, or the held signal; NaN for a rotor at rest.
 template <class S> S Network::speed(std::size_t outlet, const S* in, const double* held) const {
   const Way& way = ways_[outlet];
   return parts_.outlets[outlet].visit([&](const auto& own) {

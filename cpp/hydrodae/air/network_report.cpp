@@ -1,4 +1,4 @@
-/// What a network reports: channels, stored energy, and why it has no answer.
+/// Reports of a network: channels, stored energy, and reasons for missing results.
 
 #include <cmath>
 
@@ -43,7 +43,7 @@ void Network::name_channels() {
   }
 }
 
-/// h - h_a = n / (n - 1) p_a / rho_a ((p / p_a)^((n - 1) / n) - 1) [J/kg], p absolute.
+/// Enthalpy h - h_a = n / (n - 1) p_a / rho_a ((p / p_a)^((n - 1) / n) - 1) [J/kg], p absolute.
 double Network::heat(int chamber, const std::vector<Air<double>>& air) const {
   if (chamber < 0)
     return 0.0;
@@ -56,7 +56,8 @@ double Network::heat(int chamber, const std::vector<Air<double>>& air) const {
 
 namespace {
 
-/// E / M = p_a / rho_a ((e^((n - 1) r / n) - 1) / (n - 1) + e^(-r / n) - 1), r = log(p / p_a)
+/// Stored energy E / M = p_a / rho_a ((e^((n - 1) r / n) - 1) / (n - 1) + e^(-r / n) - 1), r =
+/// log(p / p_a)
 /// [J/kg]
 double stored(const Atmosphere& a, double n, double gauge) {
   const double r = std::log1p(gauge / a.pressure);
@@ -98,7 +99,7 @@ void Network::observe(double, const double* in, const double* held, const double
   }
 }
 
-/// At a speed that stays the generator takes all that the turbine gives.
+/// Channels of a turbine. At constant speed the generator takes all its torque.
 void Network::observe_turbine(std::size_t outlet, const Stream<double>& s, double* values) const {
   parts_.outlets[outlet].visit([&](const auto& own) {
     if constexpr (requires { own.eta; }) {

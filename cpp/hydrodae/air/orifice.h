@@ -5,19 +5,19 @@
 
 namespace hydrodae::air {
 
-/// Flow through a hole with sharp edges.
+/// Flow through a sharp-edged hole.
 ///
 ///   m = C A sqrt(2 rho_in) p / (p^2 + p_l^2)^(1/4)      p: drop of pressure
 ///
-/// Below the laminar pressure p_l the flow is linear. Where the pressure behind falls below
-/// p_in (2 / (g + 1))^(g / (g - 1)), g = 1.4 (0.528 p_in), the throat has the speed of sound, and a
-/// further drop does not add to the flow: p stays at what it is there.
+/// Below the laminar pressure p_l the flow is linear. If the downstream pressure falls below p_in
+/// (2 / (g + 1))^(g / (g - 1)), g = 1.4 (0.528 p_in), the throat reaches the speed of sound, and a
+/// further drop does not increase the flow: p stays at this value.
 struct Hole {
   double coefficient = 0.0, area = 0.0, laminar_pressure = 1.0;
 
   static constexpr double critical_ratio = 0.52828178771717416; ///< 1.2^-3.5
 
-  /// How far the drop is beyond the one that chokes, over that one.
+  /// Relative excess of the drop over the one that chokes.
   template <class S> S choking(const S& drop, const Inlet<S>& in) const {
     using std::abs;
     return abs(drop) / (S(1.0 - critical_ratio) * in.pressure) - S(1);
@@ -44,7 +44,7 @@ template <class O> Fields<O> hole_fields() {
   };
 }
 
-/// An orifice, or a throttle: a controller may write the part u of the area that is open.
+/// Orifice or throttle: a controller may set the open part u of the area.
 struct Orifice : Outlet, Hole {
   static constexpr std::string_view type = "orifice";
   static constexpr std::string_view doc =

@@ -1,5 +1,5 @@
 #pragma once
-/// What every table [[outlet]] has.
+/// Common members of every table [[outlet]].
 
 #include <optional>
 #include <string>
@@ -10,39 +10,38 @@
 
 namespace hydrodae::air {
 
-/// The air at the inlet of an outlet: of the side from which it flows.
+/// Air at the inlet of an outlet: the side from which it flows.
 template <class S> struct Inlet {
   S pressure; ///< absolute [Pa]
   S density;  ///< [kg/m3]
-  S speed{};  ///< of the rotor, if it has one [rad/s]
+  S speed{};  ///< speed of the rotor, if there is one [rad/s]
 };
 
-/// What a run holds of one outlet.
+/// Held values of one outlet in a run.
 struct Held {
-  const double* side = nullptr; ///< of its kink, 1 or -1, as located events hold it; null or 0: as
-                                ///< the number of the kink says
-  const double* signal = nullptr; ///< that a controller may write; null: as the case gives it
+  /// Side of its kink, 1 or -1, from located events; null or 0: from the sign
+  const double* side = nullptr;
+  const double* signal = nullptr; ///< signal of a controller; null: the value of the case
 
   template <class S> bool beyond(const S& now) const {
     return side && *side != 0.0 ? *side > 0.0 : now > S(0);
   }
 };
 
-/// What lets air out of a chamber. A type of outlet is a struct that derives from this one, with
+/// Outlet of a chamber. A type of outlet is a struct that derives from this one, with
 ///
 ///   type, doc, fields()          as every typed table (core/one_of.h)
-///   flow(drop, inlet, held)      mass flow [kg/s], of the sign of the drop of pressure [Pa]
-///   kink(drop, inlet, held)      optional, with has_kink(): a number that changes its sign where
-///                                the flow or its slope jumps; its size where it counts is one
-///   signal(), signal_unit(), start_signal()    optional: a number that a controller may write, and
-///                                its start
-///   prepare()                    optional: makes what the law needs of its keys
-///   shut_at_rest()               optional: does it hold the air back where nothing moves?
-///   fault()                      optional: what is wrong with its values
+///   flow(drop, inlet, held)      mass flow [kg/s], with the sign of the pressure drop [Pa]
+///   kink(drop, inlet, held)      optional, with has_kink(): switching function, which changes sign
+///                                 where the flow or its slope jumps; of order one
+///   signal(), signal_unit(), start_signal()    optional: signal of a controller, and its start
+///   prepare()                    optional: derives numbers from the keys
+///   shut_at_rest()               optional: whether it is closed at rest
+///   fault()                      optional: fault in its values
 ///
-/// and one entry in the list of air/outlets.h. Where the flow turns, the density of the inlet is
-/// that of the other side. There it is continuous, and the flow zero: only the curvature of the
-/// flow jumps, by a part drop / (n p_a) of it, which the error control of a step sees.
+/// and one entry in the list of air/outlets.h. When the flow reverses, the inlet density becomes
+/// that of the other side, while the flow is zero. Only the curvature of the flow jumps, by a part
+/// drop / (n p_a), which the error control of a step handles.
 struct Outlet {
   static constexpr std::string_view list_doc =
       "What lets air out of a chamber and in: an orifice, a plug, a turbine.";

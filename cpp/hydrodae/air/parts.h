@@ -7,8 +7,7 @@
 
 namespace hydrodae::air {
 
-/// Chambers with what presses them and what leads out of them. Chambers that no outlet joins are
-/// networks of their own.
+/// Chambers with their pistons and outlets. Chambers that no outlet connects are separate networks.
 struct Parts {
   Atmosphere outside;
   std::vector<Chamber> chambers;
@@ -16,10 +15,10 @@ struct Parts {
   std::vector<AnyOutlet> outlets;
 };
 
-/// The parts of each network, in the order of its first chamber.
+/// Parts of each network, in the order of its first chamber.
 std::vector<Parts> networks(const Parts& all);
 
-/// Where the chamber of this name stands; behind all if there is no such chamber.
+/// Index of the chamber with this name; the number of chambers if missing.
 int index_of(const std::vector<Chamber>& chambers, const std::string& name);
 
 } // namespace hydrodae::air

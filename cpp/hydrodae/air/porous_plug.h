@@ -3,7 +3,7 @@
 
 namespace hydrodae::air {
 
-/// A porous plug, as models in tanks have it in the place of a turbine: m = k p.
+/// Porous plug, which replaces a turbine in tank models: m = k p.
 struct PorousPlug : Outlet {
   static constexpr std::string_view type = "porous_plug";
   static constexpr std::string_view doc =

@@ -8,22 +8,22 @@
 
 namespace hydrodae::air {
 
-/// A turbine by dimensionless numbers (Falcao, Henriques, Renewable Energy 85 (2016) 1391-1424):
+/// Turbine in dimensionless numbers (Falcao, Henriques, Renewable Energy 85 (2016) 1391-1424):
 ///
 ///   Psi = p / (rho_in W^2 D^2)            p: drop of pressure, W: speed of rotation [rad/s]
 ///   m = Phi(Psi) rho_in W D^3
-///   T W = eta(|Psi|) p m / rho_in         what it takes out of the air
+///   T W = eta(|Psi|) p m / rho_in         power that it takes from the air
 ///
-/// Without inertia its speed stays. With it the speed is a state,
+/// Without inertia its speed is constant. With inertia the speed is a state,
 ///
 ///   I W' = T - a_w W^2 - T_g(W) - u       a_w: windage
-///   T_g = a W^b, or a curve of measured points; u: what a controller adds
+///   T_g = a W^b, or a curve of measured points; u: torque from a controller
 struct Turbine : Outlet {
   double diameter = 0.0, speed = 0.0, windage = 0.0, torque = 0.0, torque_exponent = 2.0;
   std::optional<double> inertia;
   std::vector<double> torque_at, torque_load, efficiency_at, efficiency;
   double generator_efficiency = 1.0;
-  Curve eta, generator; ///< made by `prepare`
+  Curve eta, generator; ///< curves made by `prepare`
 
   void prepare() {
     if (!efficiency.empty())
@@ -42,17 +42,17 @@ struct Turbine : Outlet {
   template <class S> S mass_flow(const S& phi, const Inlet<S>& in) const {
     return phi * in.density * in.speed * S(diameter * diameter * diameter);
   }
-  /// Do its data reach to this pressure?
+  /// Returns whether its data cover this pressure.
   template <class S> bool reaches(const S& drop, const Inlet<S>& in) const {
     using std::abs;
     return eta.empty() || abs(psi(drop, in)) <= S(efficiency_at.back());
   }
-  /// Power that it takes out of the air [W].
+  /// Power that it takes from the air [W].
   template <class S> S power(const S& drop, const S& flow, const Inlet<S>& in) const {
     using std::abs;
     return eta.empty() ? S(0) : S(eta(S(abs(psi(drop, in)))) * drop * flow / in.density);
   }
-  /// Of the generator, with what a controller adds [N m].
+  /// Torque of the generator, with that of a controller [N m].
   template <class S> S generator_torque(const S& speed_now, const Held& held) const {
     using std::exp, std::log;
     const S own =
@@ -61,7 +61,7 @@ struct Turbine : Outlet {
             : generator(speed_now);
     return own + S(held.signal ? *held.signal : 0.0);
   }
-  /// W' [rad/s2].
+  /// Angular acceleration W' [rad/s2].
   template <class S>
   S acceleration(const S& drop, const S& flow, const Inlet<S>& in, const Held& held) const {
     const S& w = in.speed;

@@ -6,13 +6,13 @@
 
 namespace hydrodae::air {
 
-/// A valve that the pressure opens: a check, relief or bypass valve. It opens at a located event
-/// where the drop rises to `opens_at`, and shuts at one where it falls to `shuts_at`. Open it is an
-/// orifice (which does not choke), shut it is tight.
+/// Valve that the pressure opens: a check, relief or bypass valve. It opens at a located event when
+/// the drop rises to `opens_at`, and closes at one when it falls to `shuts_at`. Open, it is an
+/// orifice (without choking); closed, it is tight.
 ///
-/// Between the two pressures it stays as it is. Without that distance it would open and shut
-/// without end, as the flow through it lets the pressure fall; but where both are zero, where the
-/// flow is zero too.
+/// Between the two pressures it keeps its state. Without that distance it would open and close
+/// endlessly, because its flow reduces the pressure. Both may be zero, because the flow is then
+/// zero, too.
 struct Valve : Outlet, Hole {
   static constexpr std::string_view type = "valve";
   static constexpr std::string_view doc =

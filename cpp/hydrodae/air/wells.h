@@ -6,7 +6,7 @@ namespace hydrodae::air {
 /// Wells turbine.
 ///
 ///   Phi = K Psi                                            that is m = K D p / W
-///   |Phi| = K Psi_s + K_s (|Psi| - Psi_s)                  where |Psi| > Psi_s: stalled
+///   |Phi| = K Psi_s + K_s (|Psi| - Psi_s)                  for |Psi| > Psi_s: stalled
 struct Wells : Turbine {
   static constexpr std::string_view type = "wells";
   static constexpr std::string_view doc =

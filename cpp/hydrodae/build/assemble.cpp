@@ -11,10 +11,11 @@ namespace hydrodae::build {
 
 namespace {
 
-constexpr double at_rest = 1e-12; ///< rates, in units of their scale, that count as none
-constexpr double far = 0.5;       ///< way [levers or rad] that is no longer closing a small gap
+constexpr double at_rest = 1e-12; ///< largest rate that counts as rest, in units of its scale
+/// Displacement [levers or rad] too large for closing a small gap
+constexpr double far = 0.5;
 
-/// The smallest change of the velocities after which all rates vanish.
+/// Makes the smallest change of the velocities after which all rates vanish.
 void close_velocities(const system::System& s, Constraints& constraints, VectorX& y) {
   VectorX gaps, rates;
   for (int pass = 0; pass < 2; ++pass) { // linear; the second pass removes rounding
@@ -26,7 +27,7 @@ void close_velocities(const system::System& s, Constraints& constraints, VectorX
   }
 }
 
-/// Reports how far closing the joints moved a body; a pose that the case gives is not to be left.
+/// Notes how far closing the joints moved a body; a pose given by the case must not change.
 void note_move(system::System& s, const std::vector<BodyStart>& starts, int body, double moved,
                double angle) {
   const system::BodyData& b = s.bodies[static_cast<std::size_t>(body)];
@@ -49,7 +50,7 @@ void note_move(system::System& s, const std::vector<BodyStart>& starts, int body
                     (too_far ? ": far from where the case puts it, check the start" : ""));
 }
 
-/// Writes the pose and velocities of y into the bodies; notes what moved.
+/// Writes the pose and velocities of y into the bodies; notes changes.
 void write_back(system::System& s, const std::vector<BodyStart>& starts, const VectorX& y) {
   system::Workspace<double> ws(s);
   const VectorX rest = VectorX::Zero(y.size());
@@ -77,7 +78,7 @@ void write_back(system::System& s, const std::vector<BodyStart>& starts, const V
   }
 }
 
-/// Gaps of the rows that were left out must fit the tolerance, too.
+/// Checks that gaps of the omitted rows are within the tolerance, too.
 void check_dropped(system::System& s, const system::Regime& kept, const VectorX& y,
                    double tolerance) {
   const system::DroppedRows::Gap worst = system::DroppedRows(kept).largest(0.0, y);

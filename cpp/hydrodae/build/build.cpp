@@ -1,4 +1,4 @@
-/// From the scene to the system: degrees of freedom, layout, start.
+/// Builds the system of a scene: degrees of freedom, layout, start.
 
 #include <algorithm>
 #include <cmath>
@@ -48,13 +48,13 @@ system::BodyData make_body(const model::Body& body, const Pose& pose) {
   return b;
 }
 
-/// Parts of the device that the case states to be missing.
+/// Notes parts of the device that the case declares as missing.
 void note_missing(const model::Scene& scene, system::System& s) {
   for (const std::string& part : scene.missing)
     s.notes.push_back("missing in the case: " + part);
 }
 
-/// Masses that follow from the displaced water.
+/// Notes masses that follow from the displaced water.
 void note_masses(const model::Scene& scene, system::System& s) {
   for (const model::Body& body : scene.bodies)
     if (!body.mass.word.empty())
@@ -63,7 +63,7 @@ void note_masses(const model::Scene& scene, system::System& s) {
                         " kg, that of the water which it displaces in the reference pose");
 }
 
-/// What the bodies of the case are given at the start.
+/// Initial values that the case gives for its bodies.
 std::vector<BodyStart> body_starts(const model::Scene& scene) {
   std::vector<BodyStart> out;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {

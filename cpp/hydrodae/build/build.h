@@ -5,8 +5,9 @@
 
 namespace hydrodae::build {
 
-/// Builds the system of a checked scene: dofs, markers, constraint rows that matter, hydrodynamics,
-/// scales; the excitation of the sea is that of the start, or left out. Throws ModelError.
+/// Builds the system of a checked scene: degrees of freedom, markers, constraint rows that matter,
+/// hydrodynamics, scales; the excitation of the sea is that at the start, or omitted. Throws
+/// ModelError.
 system::System build(const model::Scene& scene, const Sea& sea, bool with_excitation = true);
 inline system::System build(const model::Scene& scene, bool with_excitation = true) {
   return build(scene, draw_sea(scene), with_excitation);

@@ -1,4 +1,4 @@
-/// Chambers of air, each network of them with a port along the coordinates of its pistons.
+/// Chambers of air: each network has a port along the coordinates of its pistons.
 
 #include <algorithm>
 

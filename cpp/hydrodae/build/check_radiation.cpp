@@ -15,15 +15,17 @@ namespace hydrodae::build {
 
 namespace {
 
-// How negative damping may be, of the largest. Fits are made passive; tables of real meshes have
-// irregular frequencies (F3OF: 1.3 %), cut kernels ripple (sphere: 0.15 %).
+// Largest negative damping, as part of the largest damping. Fits are made passive; tables of real
+// meshes have irregular frequencies (F3OF: 1.3 %), cut kernels ripple (sphere: 0.15 %).
 constexpr double allowed_fit = 1e-3;
 constexpr double allowed_table = 0.05;
-constexpr double of_itself = 0.05;  ///< the same for one coordinate, of its own largest
-constexpr double negligible = 1e-4; ///< of the largest: what belongs to a coordinate below is noise
+/// Allowed negative damping of one coordinate, as part of its own largest
+constexpr double of_itself = 0.05;
+/// Damping of a coordinate that counts as noise, as part of the largest
+constexpr double negligible = 1e-4;
 
-/// sqrt of mass and added mass of each coordinate on itself: damping over mass is a rate that
-/// bodies of all sizes share.
+/// Root of mass plus added mass of each coordinate: damping over mass is a rate comparable between
+/// bodies of all sizes.
 VectorX mass_scale(const system::System& s) {
   const system::HydroData& h = s.hydro;
   VectorX scale(h.n_moving);
@@ -57,7 +59,7 @@ std::string coordinate_name(const system::System& s, Index u) {
                        "solver.force (--force) runs it all the same");
 }
 
-/// The smallest eigenvalue and the coordinate that has most of its vector.
+/// Smallest eigenvalue, and the coordinate with the largest part in its vector.
 std::pair<double, Index> lowest(const Damping& d, Index frequency) {
   Eigen::MatrixXcd lower = Eigen::MatrixXcd::Zero(d.size(), d.size());
   for (std::size_t k = 0; k < d.places.size(); ++k) {
@@ -71,12 +73,12 @@ std::pair<double, Index> lowest(const Damping& d, Index frequency) {
   return {value, d.coordinates[static_cast<std::size_t>(u)]};
 }
 
-/// @param largest  of each coordinate over all frequencies, over its mass
+/// @param largest  damping over mass of each coordinate, largest over all frequencies
 void judge(const system::System& s, const std::vector<Damping>& all, const VectorX& largest,
            const std::string& what, double allowed) {
   const double scale = largest.maxCoeff();
   if (!(scale > 0.0))
-    return; // no radiation at all
+    return; // no radiation
   double at = 0.0, part = of_itself;
   Index which = -1;
   for (const Damping& d : all)

@@ -4,12 +4,12 @@
 
 namespace hydrodae::build {
 
-/// Radiation carries energy away: at no frequency may the damping that is loaded feed the motion of
-/// the coordinates that move, but for the noise of real tables. This damping is B, the transform of
-/// the kernel, or Re H of the fit. Throws ModelError naming the coordinate, frequency and size,
-/// unless the solver's `force` is set.
-/// @param largest  damping of each coordinate on itself, largest over the table [(n_moving,)];
-///                 used by constant radiation
+/// Checks that radiation dissipates energy: at no frequency may the damping feed the motion of the
+/// moving coordinates, except for the noise of real tables. The damping is B, the transform of the
+/// kernel, or Re H of the fit. Throws ModelError with the coordinate, frequency and size, unless
+/// the solver's `force` is set.
+/// @param largest  (n_moving,) damping of each coordinate on itself, largest over the table; used
+/// by constant radiation
 void check_radiation(const model::Scene& scene, const system::System& system,
                      const VectorX& largest);
 

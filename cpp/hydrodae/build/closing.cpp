@@ -8,14 +8,18 @@ namespace hydrodae::build {
 
 namespace {
 
-constexpr double closed = 1e-12;     ///< gaps, in units of their scale, that count as none
-constexpr double row_damping = 1e-4; ///< of singular values of rows of length one, squared
-constexpr double longest_way = 3.0;  ///< scales, 0.3 levers: a step that keeps to the branch
-constexpr double parallel = 0.03; ///< part of a gap that motions close, where it cannot be closed
-constexpr double nearby = 0.3;    ///< way, in scales, that closes a gap without leaving the pose
+constexpr double closed = 1e-12; ///< gap that counts as zero, in units of its scale
+/// Damping relative to squared singular values of rows of length one
+constexpr double row_damping = 1e-4;
+/// Longest step that keeps to the branch: in scales, 0.3 levers
+constexpr double longest_way = 3.0;
+/// Part of a gap that motions close, below which it cannot be closed
+constexpr double parallel = 0.03;
+/// Displacement that closes a gap without leaving the pose, in scales
+constexpr double nearby = 0.3;
 
-/// Marks the mechanisms that are done, and takes their gaps out.
-/// @returns whether any goes on
+/// Marks the finished mechanisms, and sets their gaps to zero.
+/// @returns whether any mechanism continues
 bool drop_gaps(const Constraints& constraints, const std::vector<bool>& going, VectorX& gaps) {
   for (Index i = 0; i < gaps.size(); ++i)
     if (!going[static_cast<std::size_t>(constraints.mechanism(i))])
@@ -30,7 +34,7 @@ SparseMatrix gradient_of(const Constraints& constraints, const std::vector<bool>
   });
 }
 
-/// Goes a step, at most `longest_way` in each mechanism, and none in those that are done.
+/// Makes a step, at most `longest_way` in each mechanism; finished mechanisms stay.
 void go(const system::System& s, const Constraints& constraints, const std::vector<bool>& going,
         const VectorX& largest, VectorX step, VectorX& y) {
   for (Index k = 0; k < step.size(); ++k) {
@@ -90,7 +94,7 @@ VectorX approach(const system::System& s, Constraints& constraints, VectorX& y) 
     const VectorX largest = constraints.largest_motion(step);
     for (Index m = 0; m < n; ++m)
       if (!(largest[m] > 1e-6 * size[m]))
-        going[static_cast<std::size_t>(m)] = false; // nothing moves any more
+        going[static_cast<std::size_t>(m)] = false; // no motion left
       else
         gone[m] += std::min(largest[m], longest_way);
     go(s, constraints, going, largest, step, y);
@@ -110,7 +114,7 @@ std::vector<bool> closed_mechanisms(Constraints& constraints, const VectorX& y) 
   const VectorX size = constraints.largest_row(gaps);
   const SparseMatrix G =
       constraints.gradient([&](Index i) { return constraints.holds_position(i); });
-  VectorX length = VectorX::Zero(G.rows()); // rows of length one, as in `approach`
+  VectorX length = VectorX::Zero(G.rows()); // scaled to rows of length one, as in `approach`
   for (Index c = 0; c < G.cols(); ++c)
     for (SparseMatrix::InnerIterator it(G, c); it; ++it)
       length[it.row()] += it.value() * it.value();
@@ -131,7 +135,7 @@ std::vector<bool> closed_mechanisms(Constraints& constraints, const VectorX& y) 
 bool find_pose(const system::System& s, Constraints& constraints, VectorX& y) {
   VectorX direct = y, way = VectorX::Constant(constraints.n_mechanisms(), INFINITY);
   const VectorX damped_way = approach(s, constraints, y);
-  // Without damping a little misalignment would drive the bodies back to where it vanishes.
+  // Without damping, bodies would return to where a small misalignment vanishes.
   const VectorX left = close_positions(s, constraints, direct, &way);
   const std::vector<bool> closes = closed_mechanisms(constraints, y);
   bool found = true;

@@ -1,29 +1,31 @@
 #pragma once
-/// Moving bodies so that the constraint rows close.
+/// Motion of bodies that closes the constraint rows.
 
 #include "hydrodae/build/constraints.h"
 
 namespace hydrodae::build {
 
-inline constexpr double nearly_closed = 1e-8; ///< gaps that a closed pose may have, of their scale
+/// Largest gap of a closed pose, in units of its scale
+inline constexpr double nearly_closed = 1e-8;
 
-/// Newton's method with smallest corrections in units of the scales, each mechanism by itself.
-/// @param moved  if given: the longest way that each mechanism may go; the ways gone, in units of
-///               the scales
-/// @returns the largest gap left in each mechanism
+/// Closes positions by Newton's method with smallest corrections in units of the scales, each
+/// mechanism separately.
+/// @param moved  optional; on entry the longest displacement of each mechanism, on return the
+/// actual one, in units of the scales
+/// @returns the largest remaining gap in each mechanism
 VectorX close_positions(const system::System& system, Constraints& constraints, VectorX& y,
                         VectorX* moved = nullptr);
 
-/// Newton's method damped along directions in which the rows hardly change: closes what can be
-/// closed near y, and leaves the gaps of rows that contradict each other by a little.
-/// @returns the way that each mechanism has gone, in units of the scales
+/// Closes positions by Newton's method, damped along directions in which the rows hardly change: it
+/// closes what is possible near y, and leaves small gaps of contradictory rows.
+/// @returns the displacement of each mechanism, in units of the scales
 VectorX approach(const system::System& system, Constraints& constraints, VectorX& y);
 
-/// Which mechanisms are closed at y, but for gaps that no small motion closes?
+/// Mechanisms that are closed at y, except for gaps that no small motion closes.
 std::vector<bool> closed_mechanisms(Constraints& constraints, const VectorX& y);
 
-/// Moves y to the closed pose near it; rows that contradict each other by a little stay open.
-/// @returns whether there is one; else y is as near as it gets
+/// Moves y to the nearest closed pose; small gaps of contradictory rows stay open.
+/// @returns whether there is one; otherwise y is the nearest pose found
 bool find_pose(const system::System& system, Constraints& constraints, VectorX& y);
 
 } // namespace hydrodae::build

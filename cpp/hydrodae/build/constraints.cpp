@@ -57,7 +57,7 @@ void Constraints::set_tree() {
   tree_.assign(static_cast<std::size_t>(size_.size()), false);
   const Index ground = std::ssize(s_.bodies);
   Sets sets(ground + 1);
-  // A body that keeps two coordinates at most is guided by the ground.
+  // The ground guides a body with at most two coordinates.
   const auto place = [&](int body) {
     return body < 0 || s_.bodies[body].n_active <= 2 ? ground : Index{body};
   };
@@ -82,7 +82,7 @@ void Constraints::set_mechanisms() {
       sets.join(j.A.body, j.B.body);
     return moves(j.A.body) ? j.A.body : std::max(j.B.body, 0);
   };
-  std::vector<Index> body(static_cast<std::size_t>(size_.size()), 0); // a body of each row
+  std::vector<Index> body(static_cast<std::size_t>(size_.size()), 0); // one body of each row
   for (const system::JointData& j : s_.joints)
     for (const system::RowData& row : j.rows)
       if (s_.holds(row))
@@ -111,7 +111,7 @@ void Constraints::set_mechanisms() {
 VectorX Constraints::largest_row(const VectorX& rows) const {
   VectorX out = VectorX::Zero(n_mechanisms_);
   for (Index i = 0; i < rows.size(); ++i)
-    if (double& value = out[mechanism(i)]; !(std::abs(rows[i]) <= value)) // and NaN
+    if (double& value = out[mechanism(i)]; !(std::abs(rows[i]) <= value)) // also for NaN
       value = std::abs(rows[i]);
   return out;
 }

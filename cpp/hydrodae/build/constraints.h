@@ -1,5 +1,5 @@
 #pragma once
-/// All constraint rows at a pose, measured by the scales of the scene, as the assembly needs them.
+/// Constraint rows at a pose in units of the scales of the scene, for the assembly.
 
 #include <functional>
 #include <string>
@@ -11,44 +11,45 @@
 
 namespace hydrodae::build {
 
-/// What one unit of each velocity coordinate means as a displacement [m or rad], (n_u,).
+/// Displacement of one unit of each velocity coordinate [m or rad], (n_u,).
 VectorX displacement_scale(const system::System& system);
 
-/// Row i < n_rows belongs to the multiplier lambda0 + i. After them come the motions whose start is
-/// given, one row each. Holds a reference: the regime must outlive it, with the same layout.
+/// Constraint rows. Row i < n_rows belongs to the multiplier lambda0 + i; after them comes one row
+/// for each motion with a given start. The regime must outlive this object, with the same layout.
 class Constraints {
 public:
-  /// @param starts conditions of the start, empty: those of none
+  /// @param starts  conditions at the start; may be empty
   explicit Constraints(const system::Regime& regime, std::vector<system::MotionStart> starts = {});
 
-  /// Gaps of the rows at position level (rows at velocity level: 0), and rates of all rows, in
-  /// units of their scales; of the drives as they are at t = 0.
+  /// Computes gaps of rows at position level (0 at velocity level), and rates of all rows, in units
+  /// of their scales; drives are taken at t = 0.
   void evaluate(const VectorX& y, VectorX& gaps, VectorX& rates);
 
-  /// Gradient (rows, n_u) by scaled displacements at the pose evaluated last; rows for which
-  /// `wanted(i)` is false stay empty.
+  /// Gradient (rows, n_u) by scaled displacements at the last pose; rows with `wanted(i)` false
+  /// stay empty.
   SparseMatrix gradient(const std::function<bool(Index)>& wanted) const;
 
-  Index n_rows() const { return s_.n_lambda; }    ///< without the starts
-  Index size() const { return size_.size(); }     ///< with them
-  double size(Index i) const { return size_[i]; } ///< [m or rad] that counts as one
-  /// Does row i hold a position, does it hold a rate?
+  Index n_rows() const { return s_.n_lambda; }    ///< number of rows without those of the starts
+  Index size() const { return size_.size(); }     ///< number of rows with those of the starts
+  double size(Index i) const { return size_[i]; } ///< unit of row i [m or rad]
+  /// Returns whether row i holds a position, or a rate.
   bool holds_position(Index i) const {
     return i < s_.n_lambda ? mu_[i] >= 0 : start(i).value.has_value();
   }
   bool holds_rate(Index i) const { return i < s_.n_lambda || start(i).rate.has_value(); }
   bool is_angle(Index i) const { return angle_[static_cast<std::size_t>(i)]; }
   double lever(Index i) const { return lever_[i]; } ///< arm of the smaller body [m]
-  /// Is row i of a joint of the spanning tree? These joints take their places in the order of the
-  /// case, each where its bodies do not hang together yet. Their rows are independent in any pose.
+  /// Returns whether row i belongs to a joint of the spanning tree. Joints enter it in the order of
+  /// the case if their bodies are not connected yet. Its rows are independent in any pose.
   bool in_tree(Index i) const { return tree_[static_cast<std::size_t>(i)]; }
   const std::vector<bool>& tree() const { return tree_; } ///< (size(),) `in_tree` of all rows
   std::string name(Index i) const;                        ///< "joints/door gap along x"
-  std::string key(Index i) const; ///< what of the case it belongs to: "joint.door"
+  std::string key(Index i) const;                         ///< path in the case: "joint.door"
 
-  /// Mechanisms that rows or conditions of the start hold together; each closes by itself.
+  /// Mechanisms connected by rows or conditions of the start; each closes separately.
   Index n_mechanisms() const { return n_mechanisms_; }
-  Index mechanism(Index i) const { return mechanism_[static_cast<std::size_t>(i)]; } ///< of row i
+  /// Mechanism of row i
+  Index mechanism(Index i) const { return mechanism_[static_cast<std::size_t>(i)]; }
   /// Mechanism of velocity coordinate k < n_u.
   Index owner(Index k) const { return owner_[static_cast<std::size_t>(k)]; }
   /// Largest entry of a vector of rows (size(),) in each mechanism.
@@ -76,7 +77,7 @@ private:
   VectorX scale_, size_, lever_;
   std::vector<Index> mu_;
   std::vector<bool> angle_, tree_;
-  std::vector<Index> mechanism_, owner_; ///< of each row, of each velocity coordinate
+  std::vector<Index> mechanism_, owner_; ///< mechanism of each row, and of each velocity coordinate
   Index n_mechanisms_ = 0;
 };
 

@@ -1,4 +1,4 @@
-/// Constraints of the case, and what holds at times only.
+/// Constraints of the case, including those that hold only at times.
 
 #include <cmath>
 

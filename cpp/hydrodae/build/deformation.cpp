@@ -1,4 +1,4 @@
-/// What modes and attachments of bodies that deform are in the equations.
+/// Modes and attachments of deformable bodies in the equations.
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::string_view mode_loads = "modes";
 
-/// Place and turn of an attachment against its body; both markers have the axes of the world in the
-/// reference pose.
+/// Place and rotation of an attachment relative to its body; both markers have the axes of the
+/// world in the reference pose.
 const joint::JointType attachment_type = {"attachment",
                                           {},
                                           {joint::slides(joint::X), joint::slides(joint::Y),
@@ -28,7 +28,7 @@ const joint::JointType attachment_type = {"attachment",
                                            joint::turns(joint::Y), joint::turns(joint::Z)},
                                           false};
 
-/// The motions of the modes of a body, in their order.
+/// Motions of the modes of a body, in their order.
 std::vector<int> amplitudes(const model::Scene& scene, const std::string& body, system::System& s) {
   std::vector<int> out;
   for (const std::size_t mode : model::modes_of(scene, body))
@@ -36,9 +36,9 @@ std::vector<int> amplitudes(const model::Scene& scene, const std::string& body, 
   return out;
 }
 
-/// (6 + n, 3 (own + n)): surge ... yaw and amplitudes from the displacements of points: of `own` on
-/// the body, its centre c and c + x, c + y (and c + z) at a lever of 1 m, and one for each mode.
-/// Horizontal ones along axes turned by the mean yaw; to first order in the angles.
+/// Map (6 + n, 3 (own + n)) from displacements of points to surge ... yaw and amplitudes: `own`
+/// points on the body (its centre c, c + x, c + y and optionally c + z, at a lever of 1 m), and one
+/// for each mode. Horizontal ones are along axes turned by the mean yaw; first order in the angles.
 MatrixX from_points(Index own, Index n, double yaw) {
   MatrixX T = MatrixX::Zero(6 + n, 3 * (own + n));
   const double c = std::cos(yaw), d = std::sin(yaw);
@@ -46,14 +46,14 @@ MatrixX from_points(Index own, Index n, double yaw) {
   T(2, 2) = 1.0;
   T(3, 8) = 1.0, T(3, 2) = -1.0; // roll: c + y rises
   T(4, 2) = 1.0, T(4, 5) = -1.0; // pitch: c + x sinks
-  T.block<1, 2>(5, 3) << -d, c;  // yaw: c + x goes along y
+  T.block<1, 2>(5, 3) << -d, c;  // yaw: c + x moves along y
   T.block<1, 2>(5, 0) << d, -c;
   for (Index k = 0; k < n; ++k)
     T(6 + k, 3 * (own + k)) = 1.0;
   return T;
 }
 
-/// Hydrostatics by and on the modes of a body (6 + n, 6 + n), zero of the six alone.
+/// Hydrostatics of the modes of a body (6 + n, 6 + n), without the block of the six.
 MatrixX hydrostatics(const model::Scene& scene, const model::Body& body,
                      const std::vector<std::size_t>& modes) {
   const auto n = static_cast<Index>(modes.size());
@@ -76,7 +76,7 @@ MatrixX hydrostatics(const model::Scene& scene, const model::Body& body,
 
 /// Stiffness (3 (4 + n), 3 (4 + n)) of the weight on the modes, between the points of
 /// `from_points`. Their heights give R^T e_z, so that the potential g e_z . R sum w_k q_k is a
-/// quadratic form: it bends the body at any pose, and turns it by the shift of its centre of mass.
+/// quadratic form. It bends the body at any pose, and turns it by the shift of its centre of mass.
 MatrixX weight_on_modes(const model::Scene& scene, const std::vector<std::size_t>& modes,
                         double gravity) {
   const Index size = 3 * (4 + std::ssize(modes));
@@ -143,7 +143,7 @@ system::ElementList loads_of(const model::Scene& scene, const model::Body& body,
   MatrixX stiffness = T.transpose() * K * T;
   if (weighs) {
     stiffness += weight_on_modes(scene, modes, s.gravity);
-    reference[11] = reference[2]; // of c + z: as high as c, as the other two are
+    reference[11] = reference[2]; // height of c + z: as high as c, like the other two
   }
   system::ElementList list;
   list.laws = std::make_shared<const element::LinearPoints>(mode_loads, body.name, reference,

@@ -1,4 +1,4 @@
-/// What loads the bodies: each list of forces of the case as a list of laws, with the ports that
+/// Loads on the bodies: each list of forces of the case becomes a list of laws, with the ports that
 /// their members name.
 
 #include <algorithm>
@@ -25,7 +25,7 @@ using element::Port;
 const joint::JointType spring_type = {"spring", {}, {joint::stretches()}, false};
 const joint::JointType bushing_type = {"bushing", {}, {}, false};
 
-/// A hidden joint: markers without rows.
+/// Joins markers by a hidden joint without rows.
 void join_markers(const std::string& name, const joint::JointType& type, joint::Marker A,
                   joint::Marker B, system::System& s, system::PortData& port) {
   system::JointData j;
@@ -39,7 +39,7 @@ void join_markers(const std::string& name, const joint::JointType& type, joint::
   port.motion = type.motions.empty() ? -1 : added.first_motion;
 }
 
-/// A law that a program has to give.
+/// Checks that the program has set its law.
 template <class F> void check_given(const F& force) {
   if constexpr (requires { force.function; })
     if (!force.function)
@@ -85,7 +85,7 @@ system::PortData make_port(const model::Scene& scene, const F& force, system::Sy
   return port;
 }
 
-/// What friction takes from the scene.
+/// Completes friction by values of the scene.
 template <class F> void complete(F& force, const system::PortData& port, const system::System& s) {
   if constexpr (std::is_base_of_v<element::FrictionLoads, F>) {
     force.turns = s.motions[static_cast<std::size_t>(port.motion)].motion.is_angle();
@@ -93,7 +93,7 @@ template <class F> void complete(F& force, const system::PortData& port, const s
     system::for_each_body(s, port, [&](int body) {
       if (body < 0 || s.bodies[static_cast<std::size_t>(body)].n_active == 0)
         return;
-      const double g = s.gravity > 0.0 ? s.gravity : 9.81; // a size is wanted
+      const double g = s.gravity > 0.0 ? s.gravity : 9.81; // only the size matters
       force.weight = std::min(force.weight, g * s.bodies[static_cast<std::size_t>(body)].mass);
     });
     if (std::isinf(force.weight))
@@ -101,7 +101,7 @@ template <class F> void complete(F& force, const system::PortData& port, const s
   }
 }
 
-/// Switches of the laws of the last list that stick.
+/// Adds switches for the sticking laws of the last list.
 void add_sticking(system::System& s) {
   const system::ElementList& list = s.elements.back();
   for (std::size_t k = 0; k < list.laws->sticks.size(); ++k) {
@@ -116,8 +116,8 @@ void add_sticking(system::System& s) {
   }
 }
 
-/// Some forces of one type act on more points or have more states than others: lists of equal
-/// shape.
+/// Splits forces of one type into lists of equal shape: their numbers of points or states may
+/// differ.
 template <class F> std::vector<std::vector<F>> alike(const std::vector<F>& forces) {
   if constexpr (requires(const F& f) { f.shape(); }) {
     std::map<std::size_t, std::vector<F>> by_number;
@@ -160,8 +160,8 @@ void add_list(const model::Scene& scene, const element::Surroundings& around,
   add_sticking(s);
 }
 
-/// Buoyancy and linear hydrostatics in the axes of the database: force (0, 0, rho g V), moment
-/// (r_B - r_G) x (0, 0, rho g V), minus C_hs xi.
+/// Buoyancy and linear hydrostatics in the axes of the database: force (0, 0, rho g V), moment (r_B
+/// - r_G) x (0, 0, rho g V), minus C_hs xi.
 element::LinearWrench hydrostatic_wrench(const hydro::Database& db,
                                          const hydro::DatabaseBody& entry) {
   const hydro::Hydrostatics& h = *entry.hydrostatics;
@@ -172,8 +172,8 @@ element::LinearWrench hydrostatic_wrench(const hydro::Database& db,
   return law;
 }
 
-/// W = T (W0 - C_hs T^T xi) with T the turn by the mean yaw, and xi from the reference pose turned
-/// by it.
+/// Turns the wrench by the mean yaw T: W = T (W0 - C_hs T^T xi), with xi relative to the reference
+/// pose turned by T.
 void turn(element::LinearWrench& law, system::PortData& port, const system::HydroBody& hb) {
   Matrix6 T = Matrix6::Zero();
   T.topLeftCorner<3, 3>() = T.bottomRightCorner<3, 3>() = rotation_about_axis<double>(2, hb.yaw);
@@ -182,7 +182,7 @@ void turn(element::LinearWrench& law, system::PortData& port, const system::Hydr
   port.turn << std::cos(0.5 * hb.yaw), 0.0, 0.0, std::sin(0.5 * hb.yaw);
 }
 
-/// Of the dry bodies that say how much water they displace.
+/// Adds buoyancy of dry bodies with a given displaced volume.
 void add_buoyancy(const model::Scene& scene, system::System& s) {
   const model::Water water = model::water(scene);
   std::vector<water::Buoyancy> forces;

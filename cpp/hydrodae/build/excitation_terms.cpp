@@ -9,10 +9,10 @@ namespace hydrodae::build {
 
 namespace {
 
-constexpr double left_out = 1e-6; ///< of the largest of the body
+constexpr double left_out = 1e-6; ///< negligible terms, as part of the largest term of the body
 
-/// Order of the harmonics that exp(-i z cos b) has up to 1e-7: Bessel functions J_m(z) fall like
-/// Ai(2^(1/3) (m - z) / z^(1/3)) beyond m = z.
+/// Highest harmonic of exp(-i z cos b) above 1e-7: Bessel functions J_m(z) decrease like Ai(2^(1/3)
+/// (m - z) / z^(1/3)) beyond m = z.
 double harmonics_of_phase(double z) {
   return z > 0.0 ? std::ceil(z + 6.0 * std::cbrt(z) + 4.0) : 0;
 }
@@ -21,11 +21,11 @@ double arm(const hydro::Excitation& table, std::size_t label, const Meeting& bod
   return (table.point(label) - body.database_point).head<2>().norm();
 }
 
-/// The interval of yaw that keeps all components within the headings of a fan.
+/// Sets the interval of yaw in which all components are within the headings of a sector.
 void set_interval(const hydro::Headings& headings, const Meeting& body,
                   const std::vector<sea::Component>& components, water::YawFunctions& out) {
   const VectorX& table = headings.table();
-  double below = -INFINITY, above = INFINITY; // from the mean yaw
+  double below = -INFINITY, above = INFINITY; // limits relative to the mean yaw
   for (const sea::Component& c : components) {
     const double relative = *headings.covered(c.heading - body.yaw);
     below = std::max(below, relative - table[table.size() - 1]);
@@ -96,7 +96,7 @@ Eigen::MatrixXcd yaw_coefficients(const hydro::Excitation& table, std::size_t fi
   const Index n = samples.yaws.size();
   const Vector3 lever = table.point(first_label) - body.database_point;
   MatrixX weights(n, headings.table().size());
-  VectorX along(n); // of the lever, in the direction of the waves
+  VectorX along(n); // position along the lever, in the direction of the waves
   double heading = NAN;
   Eigen::MatrixXcd out(6 * n, std::ssize(components));
   for (Index i = 0; i < out.cols(); ++i) {
@@ -104,7 +104,7 @@ Eigen::MatrixXcd yaw_coefficients(const hydro::Excitation& table, std::size_t fi
     if (c.heading != heading) {
       heading = c.heading;
       for (Index k = 0; k < n; ++k) {
-        // A node may stand a rounding beside the table.
+        // A node may lie outside the table by rounding.
         const double relative = heading - samples.yaws[k];
         weights.row(k) = headings.weights(*headings.covered(relative)).transpose();
         along[k] = lever[0] * std::cos(relative) + lever[1] * std::sin(relative);
@@ -133,7 +133,7 @@ std::vector<water::Excitation::Term> terms_that_matter(const Eigen::MatrixXcd& c
   for (Index c = 0; c < 6; ++c) {
     const double least =
         left_out * (c < 3 ? std::max(force, moment / length) : std::max(moment, force * length));
-    // Cosine and sine of one order stay together: no direction of the world counts more.
+    // Cosine and sine of one order are kept together, so that all directions are equal.
     for (Index m = 0, n = 1; m < count; m += n) {
       n = functions.round && m > 0 ? 2 : 1;
       if (count == 1 || size.segment(c * count + m, n).norm() > least)

@@ -1,5 +1,5 @@
 #pragma once
-/// The excitation of one body as a sum over functions of its yaw.
+/// Excitation of one body as a sum over functions of its yaw.
 
 #include <vector>
 
@@ -12,12 +12,13 @@
 
 namespace hydrodae::build {
 
-/// How a body meets the waves: where it is at the start (or, when the phase moves with it, where it
-/// is in the reference pose), turned by its mean yaw or, if `yaws`, by whatever its yaw is.
+/// Pose in which a body meets the waves: at its start (or, if the phase moves with it, in the
+/// reference pose), turned by its mean yaw or, if `yaws`, by any yaw.
 struct Meeting {
   double yaw = 0.0; ///< [rad]
   bool yaws = false;
-  Vector3 point = Vector3::Zero(), database_point = Vector3::Zero(); ///< phases are about these [m]
+  /// Reference points of the phases [m]
+  Vector3 point = Vector3::Zero(), database_point = Vector3::Zero();
 };
 
 /// How each hydrodynamic body meets the waves (sea.cpp).
@@ -29,22 +30,22 @@ inline bool follows_yaw(const system::System& s, const system::HydroBody& hb) {
          (hb.moving[5] >= 0 || (hb.moving[3] >= 0 && hb.moving[4] >= 0));
 }
 
-/// The tables of the excitation: in axes that follow the yaw with headings that a symmetry adds. It
-/// stands in `symmetry`, in words; empty: none.
+/// Tables of the excitation. In axes that follow the yaw they include the headings that a symmetry
+/// adds; `symmetry` describes it (empty: none).
 hydro::Database wave_tables(const model::Scene& scene, const system::System& system,
                             std::string& symmetry);
 
-/// Yaws at which the excitation is taken from the tables, and what makes of it the coefficients of
-/// the functions of yaw: on the circle the discrete Fourier transform, for an interval that of
-/// Chebyshev, at its nodes.
+/// Yaws at which the tables are evaluated, and the transform to coefficients of the yaw functions:
+/// the discrete Fourier transform for all headings, the Chebyshev transform at its nodes for an
+/// interval.
 struct YawSamples {
   water::YawFunctions functions;
   VectorX yaws;      ///< (n,) [rad]
   MatrixX transform; ///< (functions.count, n)
 };
 
-/// Headings all round allow any yaw, others those which keep all components within the table. All
-/// components must be covered at the mean yaw.
+/// Yaw samples. Tables with all headings allow any yaw, others the yaws that keep all components
+/// within the table. The table must cover all components at the mean yaw.
 YawSamples yaw_samples(const hydro::Excitation& table, std::size_t first_label, const Meeting& body,
                        const std::vector<sea::Component>& components);
 
@@ -58,17 +59,17 @@ Eigen::MatrixXcd yaw_coefficients(const hydro::Excitation& table, std::size_t fi
                                   const Meeting& body, const YawSamples& samples,
                                   const std::vector<sea::Component>& components);
 
-/// The same for the linear Froude-Krylov load on the mesh of a body in a pose: what leaves the
-/// diffraction when it is taken from the excitation of a database, so that in small waves the loads
-/// are those of the database (hulls.cpp).
+/// Coefficients of the linear Froude-Krylov load on the mesh of a body in a pose. Subtracting it
+/// from the excitation of a database leaves the diffraction, so that loads in small waves equal
+/// those of the database (hulls.cpp).
 Eigen::MatrixXcd mesh_coefficients(const model::Scene& scene, const hull::Mesh& mesh,
                                    const hull::Pose& body, const Meeting& meeting,
                                    const YawSamples& samples,
                                    const std::vector<sea::Component>& components);
 
-/// Which rows of `yaw_coefficients` are more than a tenth of the noise that the tables have from
-/// the symmetry of a body (water/excitation.cpp); all where the yaw does not matter. `length`:
-/// what compares moments with forces [m].
+/// Rows of `yaw_coefficients` above a tenth of the tables' noise for a symmetric body
+/// (water/excitation.cpp); all rows if the yaw does not matter. `length`: ratio of moments to
+/// forces [m].
 std::vector<water::Excitation::Term> terms_that_matter(const Eigen::MatrixXcd& coefficients,
                                                        const water::YawFunctions& functions,
                                                        double length);

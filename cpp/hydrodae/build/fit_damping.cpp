@@ -1,7 +1,7 @@
 /// Hermitian part of H(iw) of the memory fit, set by set of coupled coordinates:
 ///   H(iw) = sum_k (C_k B_k / (iw - p_k) + conj(C_k B_k) / (iw - conj p_k)) / 2,
-/// C_k B_k / (iw - p_k) for real poles. Of a pole count the coordinates that drive or feel it, so
-/// that the sums cost what is coupled.
+/// with C_k B_k / (iw - p_k) for real poles. Only coordinates that drive a pole or are loaded by it
+/// enter, so that the cost follows the coupling.
 
 #include <algorithm>
 #include <span>
@@ -17,9 +17,9 @@ namespace {
 using Rows = Damping::Rows;
 using Complex = std::complex<double>;
 
-/// What the real and imaginary parts of C B count for in the Hermitian part, at each frequency.
+/// Factors of the real and imaginary parts of C B in the Hermitian part, at each frequency.
 struct Weights {
-  Rows real, imaginary; ///< (2 n_poles, padded n_frequencies): of Re C B, then of Im C B
+  Rows real, imaginary; ///< (2 n_poles, padded n_frequencies): factors of Re C B, then of Im C B
 
   Weights(const Eigen::VectorXcd& poles, const std::vector<double>& frequency) {
     const Index m = poles.size();
@@ -42,7 +42,7 @@ struct Weights {
   }
 };
 
-/// The rows of `weights` for the poles of these terms, those of Re C B and of Im C B.
+/// Rows of `weights` for the poles of these terms, first for Re C B, then for Im C B.
 Rows rows_of(const Rows& weights, const std::vector<Term>& terms) {
   const Index m = weights.rows() / 2, n = std::ssize(terms);
   Rows out(2 * n, weights.cols());
@@ -58,7 +58,7 @@ bool same_poles(const std::vector<Term>& a, const std::vector<Term>& b) {
                     [](const Term& x, const Term& y) { return x.pole == y.pole; });
 }
 
-/// The symmetric part of Re C B and Im C B (sign 1), or the antisymmetric part (-1), weighted.
+/// Weighted symmetric part of Re C B and Im C B (sign 1), or antisymmetric part (-1).
 Rows sums(const Poles& p, const Rows& weights, Index n_frequencies,
           std::span<const Definite::Place> places, double sign) {
   Rows out(n_frequencies, std::ssize(places));
@@ -89,7 +89,7 @@ Rows sums(const Poles& p, const Rows& weights, Index n_frequencies,
   return out;
 }
 
-/// Multiplications that `sums` takes for each frequency, of the whole matrix and not of its half.
+/// Multiplications of `sums` for each frequency, for the whole matrix.
 double work(const Poles& p, const std::vector<Definite::Place>& places) {
   double out = 0.0;
   for (const Definite::Place& at : places)

@@ -11,7 +11,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// The blocks of each state; of a pair both.
+/// Block of each state; both states of a pair have the same.
 std::vector<Index> blocks_of_states(const system::HydroData& h) {
   std::vector<Index> out(static_cast<std::size_t>(h.n_states));
   for (std::size_t k = 0; k < h.blocks.size(); ++k)
@@ -20,7 +20,7 @@ std::vector<Index> blocks_of_states(const system::HydroData& h) {
   return out;
 }
 
-/// Sorts the terms of a coordinate, and adds up those of the same pole.
+/// Sorts the terms of a coordinate, and adds those of the same pole.
 void gather(std::vector<Term>& terms) {
   std::stable_sort(terms.begin(), terms.end(),
                    [](const Term& a, const Term& b) { return a.pole < b.pole; });
@@ -40,7 +40,7 @@ void gather(std::vector<Term>& terms) {
 std::vector<Poles> coupled_poles(const system::HydroData& h, const VectorX& root_mass) {
   const std::vector<Index> block = blocks_of_states(h);
   const Index n = h.n_moving;
-  Sets sets(n + std::ssize(h.blocks)); // of coordinates, then blocks
+  Sets sets(n + std::ssize(h.blocks)); // sets of coordinates, then of blocks
   std::vector<bool> loads(h.blocks.size());
   h.products.output.for_each([&](Index u, Index state, double) {
     const Index k = block[static_cast<std::size_t>(state)];

@@ -1,5 +1,5 @@
 #pragma once
-/// The poles of a memory fit, by the coordinates that drive or feel them.
+/// Poles of a memory fit, with the coordinates that drive or load them.
 
 #include <complex>
 #include <vector>
@@ -10,30 +10,30 @@
 
 namespace hydrodae::build {
 
-/// A pole as a coordinate sees it: its entries of B and C, over sqrt(mass).
+/// Part of a pole in a coordinate: its entries of B and C, over sqrt(mass).
 struct Term {
   Index pole = 0;
   std::complex<double> input = 0.0, output = 0.0;
 };
 
-/// Coordinates that feel each other through the memory, and its poles.
+/// Coordinates coupled by the memory, and its poles.
 struct Poles {
   std::vector<Index> coordinates;
   Eigen::VectorXcd poles;
-  std::vector<std::vector<Term>> terms; ///< of each coordinate, by poles
+  std::vector<std::vector<Term>> terms; ///< terms of each coordinate, by poles
 };
 
-/// The sets of coordinates that a block joins: all that it loads and that drive it.
+/// Sets of coordinates joined by a block: those that it loads and those that drive it.
 std::vector<Poles> coupled_poles(const system::HydroData& h, const VectorX& root_mass);
 
-/// From far below the slowest to far above the fastest pole, and near each of them.
+/// Frequencies from far below the slowest to far above the fastest pole, and near each pole.
 std::vector<double> pole_frequencies(const Poles& p, std::size_t most);
 
-/// Places of the lower triangle whose coordinates have a pole in common, by columns.
+/// Places in the lower triangle of coordinates with a common pole, by columns.
 std::vector<Definite::Place> coupled_places(const Poles& p);
 
-/// A number that no eigenvalue of the Hermitian part is below, at any frequency. A residue C_k B_k
-/// = g B_k^H B_k + e_k B_k with g >= 0 damps by its first part, and its second part has a norm of
+/// Lower bound of the eigenvalues of the Hermitian part at all frequencies. The first part of a
+/// residue C_k B_k = g B_k^H B_k + e_k B_k with g >= 0 dissipates; its second part has a norm of
 /// |e_k| |B_k| / |iw - p_k| <= |e_k| |B_k| / |Re p_k|.
 double least_by_residues(const Poles& p);
 

@@ -16,8 +16,9 @@ namespace {
 
 using Vector6c = Eigen::Matrix<std::complex<double>, 6, 1>;
 
-constexpr double small_wave = 1e-4;  ///< height of waves that count as small, of body and length
-constexpr double same_volume = 0.01; ///< of the database: more is noted
+constexpr double small_wave = 1e-4; ///< height of small waves, relative to body and wave length
+/// Relative difference to the volume of the database without a note
+constexpr double same_volume = 0.01;
 
 hull::Water water_of_hulls(const model::Scene& scene) {
   const model::Water water = model::water(scene);
@@ -37,7 +38,7 @@ std::vector<hull::Wave> waves_of_hulls(const Sea& sea) {
   return out;
 }
 
-/// What the mesh displaces in the reference pose, beside the database.
+/// Notes the displaced volume of the mesh in the reference pose, compared with the database.
 void note_volume(const model::Scene& scene, const model::Body& body, system::System& s) {
   const hull::Floating f = hull::floating_in_reference_pose(*body.hull, body.center_of_gravity);
   std::string text = "body " + in_quotes(body.name) + ": the mesh displaces " +
@@ -54,7 +55,7 @@ void note_volume(const model::Scene& scene, const model::Body& body, system::Sys
 }
 
 /// Complex amplitudes (6,) of the load on a mesh in waves of 1 m, phase zero at the centre of
-/// gravity: differences of the nonlinear load at +-a, whose error is of order a^2.
+/// gravity: differences of the nonlinear load at +-a, with an error of order a^2.
 Vector6c linear_load(const hull::Mesh& mesh, const hull::Water& water, const hull::Pose& pose,
                      const sea::Component& c, double heading) {
   const double a = small_wave * std::min(mesh.radius, 1.0 / c.wavenumber);
@@ -77,7 +78,7 @@ Eigen::MatrixXcd mesh_coefficients(const model::Scene& scene, const hull::Mesh& 
                                    const YawSamples& samples,
                                    const std::vector<sea::Component>& components) {
   const hull::Water water = water_of_hulls(scene);
-  // Phases are those of the point where the body meets the waves: the pose stands above the origin.
+  // Phases refer to the point where the body meets the waves: the pose is above the origin.
   const hull::Pose pose{{0.0, 0.0, body.position[2]}, body.rotation};
   Eigen::MatrixXcd out(6 * samples.transform.rows(), std::ssize(components));
   for (Index i = 0; i < out.cols(); ++i) {

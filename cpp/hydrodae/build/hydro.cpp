@@ -16,7 +16,7 @@ namespace hydrodae::build {
 
 namespace {
 
-/// U: which coordinates of which body.
+/// Numbers the entries of U by coordinates of bodies.
 void number_coordinates(const model::Scene& scene, system::System& s) {
   system::HydroData& h = s.hydro;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -56,10 +56,11 @@ static std::vector<Definite::Place> coupled_places(const system::HydroData& h) {
   return out;
 }
 
-// Else a push moves the body towards the hand. Units differ: judged with a unit diagonal.
+// Refuses a mass matrix that is not positive definite. Units differ, so it is scaled to a unit
+// diagonal.
 void check_mass(const system::System& s) {
   const system::HydroData& h = s.hydro;
-  const auto own = [&](Index u, Index v) { // of the bodies, without the water
+  const auto own = [&](Index u, Index v) { // mass of the bodies without the water
     const system::HydroData::Coordinate &a = h.coordinates[static_cast<std::size_t>(u)],
                                         &b = h.coordinates[static_cast<std::size_t>(v)];
     if (a.hydro_body != b.hydro_body)

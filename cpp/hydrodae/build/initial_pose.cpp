@@ -18,8 +18,8 @@ Vector4 quaternion_product(const Vector4& a, const Vector4& b) {
   return {c.w(), c.x(), c.y(), c.z()};
 }
 
-/// Bodies that hang on `start` when `without` is taken away, start included; the search does not go
-/// on through the ground (-1) or a fixed body.
+/// Bodies connected to `start` without the joint `without`, `start` included; the search stops at
+/// the ground (-1) and at fixed bodies.
 std::vector<int> hanging_bodies(const model::Scene& scene, int start, std::size_t without) {
   std::vector<int> found{start};
   for (std::size_t k = 0; k < found.size(); ++k) {
@@ -40,13 +40,13 @@ std::vector<int> hanging_bodies(const model::Scene& scene, int start, std::size_
   return found;
 }
 
-/// Can all these bodies be moved as one?
+/// Returns whether all these bodies can move as one.
 bool movable(const model::Scene& scene, const std::vector<int>& bodies) {
   return std::all_of(bodies.begin(), bodies.end(),
                      [&](int b) { return b >= 0 && model::moves(scene.bodies[b]); });
 }
 
-/// Does a rigid motion that takes a body from one pose to the other leave what its motion locks?
+/// Returns whether a rigid motion between two poses of a body keeps its locked coordinates.
 bool may_go(const model::Body& body, const Pose& from, const Pose& to) {
   const std::array<bool, 6> free = model::free_coordinates(body);
   const auto rotations = std::count(free.begin() + 3, free.end(), true);
@@ -61,9 +61,9 @@ bool may_go(const model::Body& body, const Pose& from, const Pose& to) {
   return rotations > 0 || (to.p - from.p).norm() < 1e-9;
 }
 
-/// Rigid motion of a set of bodies: turn about an axis through `point`, then slide. Points, which
-/// have no rotation, only go along. Where a body locks the way, none of them moves: the assembly
-/// finds their poses.
+/// Moves a set of bodies rigidly: a rotation about an axis through `point`, then a translation.
+/// Points, which have no rotation, only translate. If a body locks the motion, all stay: the
+/// assembly finds their poses.
 void move(const model::Scene& scene, std::vector<Pose>& poses, const std::vector<int>& bodies,
           const Vector3& point, const Vector3& rotation, const Vector3& slide) {
   const Vector4 turn = quaternion_from_rotation_vector(rotation);
@@ -98,14 +98,14 @@ void apply_joint_start(const model::Scene& scene, std::size_t index, std::vector
   }
   if (loop || !movable(scene, side))
     return; // the assembly finds a pose that has this coordinate
-  // The joint's point and axis as they stand now on body A (the side that may have moved before).
+  // Point and axis of the joint at the present pose of body A, which may have moved before.
   const Pose ground;
   const Pose& base = a >= 0 ? poses[a] : ground;
   const Vector3 reference = a >= 0 ? scene.bodies[a].center_of_gravity : Vector3::Zero();
   const Matrix3 R = rotation_matrix<double>(base.p);
   const Vector3 point = base.r + R * (joint.point - reference);
   const Vector3 axis = sign * (R * marker_axes(joint.axis, joint.axis_x).col(2));
-  if (!joint.path.empty()) { // the point of B to its place on the curve, along the curve
+  if (!joint.path.empty()) { // moves the point of B to its place on the curve, along the curve
     const Vector3 place = joint::Path(joint.path).at_arc(start.displacement.value_or(0.0))[0];
     const Vector3 slide =
         start.displacement ? Vector3(sign * (R * (place - joint.point))) : Vector3::Zero();
@@ -116,7 +116,7 @@ void apply_joint_start(const model::Scene& scene, std::size_t index, std::vector
        start.displacement.value_or(0.0) * axis);
 }
 
-/// A body that turns about one axis cannot start turned about another.
+/// Refuses a body with one rotation axis that starts turned about another.
 void check_locked(const model::Body& body, const Pose& pose) {
   const std::array<bool, 6> free = model::free_coordinates(body);
   if (std::count(free.begin() + 3, free.end(), true) != 1)
@@ -128,7 +128,7 @@ void check_locked(const model::Body& body, const Pose& pose) {
                            std::string(model::coordinate_names[c]) + ", which its motion locks");
 }
 
-/// Where its body has it; turns by modes are small.
+/// Pose of an attachment on its body; rotations by modes are small.
 Pose attached(const model::Scene& scene, const model::Attachment& place,
               const std::vector<Pose>& poses) {
   const auto body = static_cast<std::size_t>(body_index(scene, place.body));
@@ -158,7 +158,7 @@ Matrix3 marker_axes(const std::optional<Vector3>& axis, const std::optional<Vect
   const Vector3 z = axis ? axis->normalized() : Vector3::UnitZ();
   Vector3 x = axis_x.value_or(Vector3::UnitX());
   x -= x.dot(z) * z;
-  if (!axis_x && x.norm() < 1e-6) // the default x lies along the axis: take world y
+  if (!axis_x && x.norm() < 1e-6) // the default x is along the axis: take world y
     x = Vector3::UnitY() - z[1] * z;
   x.normalize();
   Matrix3 axes;

@@ -11,11 +11,11 @@ struct Pose {
   Vector4 p{1, 0, 0, 0};
 };
 
-/// Start of all bodies: the reference pose, displaced by `body.initial`, then moved joint by joint
-/// by `joint.initial`. A joint moves its body B and all that hangs on it; where the ground or a
-/// fixed body hangs there, it moves the other side the opposite way; joints in closed loops, and
-/// those that would move a locked coordinate, are left to the assembly. Throws ModelError where a
-/// body starts turned about a locked axis.
+/// Initial poses of all bodies: the reference pose, displaced by `body.initial`, then moved joint
+/// by joint by `joint.initial`. A joint moves its body B and everything connected to it; if that
+/// includes the ground or a fixed body, it moves the other side in the opposite direction. The
+/// assembly solves for joints in closed loops, and those that would move a locked coordinate.
+/// Throws ModelError if a body starts turned about a locked axis.
 std::vector<Pose> initial_poses(const model::Scene& scene);
 
 /// Index of a body in the scene, -1 for "ground".

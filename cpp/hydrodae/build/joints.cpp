@@ -1,4 +1,4 @@
-/// Joints with their motions, and the rows of them that matter.
+/// Joints with their motions and the rows that matter.
 
 #include <algorithm>
 #include <cmath>
@@ -24,8 +24,7 @@ const std::array<joint::JointType, 6> body_coordinates = {{
 }};
 const joint::JointType rope_type = {"one-sided distance", {}, {joint::stretches()}, false};
 
-/// Poses that the free coordinates can reach, drawn at random: they show which constraint rows can
-/// change at all.
+/// Random poses along the free coordinates: they show which constraint rows can change.
 std::vector<system::BodyState<double>> random_states(const system::System& s,
                                                      std::mt19937& random) {
   auto draw = [&] { return 2.0 * (random() / 4294967296.0) - 1.0; };
@@ -43,7 +42,7 @@ std::vector<system::BodyState<double>> random_states(const system::System& s,
   return ws.bodies;
 }
 
-/// Largest entry of a row's gradient over the coordinates that are free.
+/// Largest entry of a row's gradient over the free coordinates.
 double free_gradient(const system::System& s, const system::JointData& j,
                      const joint::Vector12& gradient) {
   double largest = 0.0;
@@ -85,7 +84,7 @@ void add_joint(const model::Scene& scene, const model::Joint& joint, system::Sys
   j.B = make_marker(scene, joint.body_b, point_b, axes);
   j.parameters.length = joint.length.value_or((point_b - joint.point).norm());
   j.parameters.pitch = joint.pitch;
-  if (!joint.path.empty()) { // its points as the marker has its own
+  if (!joint.path.empty()) { // points of the path are given like the point of the marker
     std::vector<Vector3> points = joint.path;
     for (Vector3& p : points)
       p = make_marker(scene, joint.body_a, p, axes).point;

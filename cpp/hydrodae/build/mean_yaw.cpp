@@ -1,5 +1,5 @@
-/// The mean yaw of hydrodynamic bodies: added mass, radiation, excitation and hydrostatics belong
-/// to the pose of the database turned by it. See docs/axes.md.
+/// Mean yaw of hydrodynamic bodies: added mass, radiation, excitation and hydrostatics belong to
+/// the pose of the database turned by it. See docs/axes.md.
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +12,13 @@ namespace hydrodae::build {
 
 namespace {
 
-constexpr double rounding = 1e-9;             ///< [rad]
-constexpr double together = 5.0 * pi / 180.0; ///< yaws that differ by less are one device's [rad]
+constexpr double rounding = 1e-9; ///< [rad]
+/// Largest difference of yaws within one device [rad]
+constexpr double together = 5.0 * pi / 180.0;
 
-/// Yaw of a body where it starts [rad]: the turn about z that is left when the shortest turn which
-/// sets its z axis upright is taken away; it is zero for any pitch or roll below 180 degrees. Yaw
-/// axes have that of the body's x axis seen from above, which they follow.
+/// Yaw of a body at its start [rad]: rotation about z that remains without the shortest rotation
+/// that sets its z axis upright. It is zero for any pitch or roll below 180 degrees. Yaw axes use
+/// the angle of the body's x axis seen from above.
 double start_yaw(system::HydroAxes axes, const system::BodyData& body) {
   if (axes == system::HydroAxes::yaw) {
     const Vector3 ahead = rotation_matrix<double>(body.orientation).col(0);
@@ -48,7 +49,8 @@ bool take_mean_yaw(const model::Scene& scene, system::System& s) {
                            "along world axes, and the axes of its hydrodynamics are turned; free "
                            "both, or hold one by a joint");
   }
-  if (changed && s.hydro.axes != system::HydroAxes::yaw) { // whose loads follow the yaw
+  // loads in yaw axes follow the yaw themselves
+  if (changed && s.hydro.axes != system::HydroAxes::yaw) {
     set_hydrostatics(scene, s);
     set_mode_loads(scene, s);
   }

@@ -1,4 +1,4 @@
-/// Morison elements cut into segments, and the waves and the current that they feel.
+/// Segments of Morison elements, and their waves and current.
 
 #include "hydrodae/build/initial_pose.h"
 #include "hydrodae/build/parts.h"
@@ -10,7 +10,7 @@ namespace hydrodae::build {
 
 namespace {
 
-/// A sphere: of the diameter, or as large as the volume (without one, as the area).
+/// Sphere of the given diameter, or of the given volume (or area without a volume).
 water::MorisonSegment point_law(const water::Morison& m, double rho) {
   const double D = m.diameter.value_or(0.0);
   const double area = m.area.value_or(0.25 * pi * D * D);
@@ -25,7 +25,7 @@ water::MorisonSegment point_law(const water::Morison& m, double rho) {
   return law;
 }
 
-/// A piece of a cylinder of this length.
+/// Piece of a cylinder of this length.
 water::MorisonSegment member_law(const water::Morison& m, double length, double rho) {
   const double D = *m.diameter, volume = 0.25 * pi * D * D * length;
   water::MorisonSegment law;
@@ -41,7 +41,7 @@ water::MorisonSegment member_law(const water::Morison& m, double length, double 
   return law;
 }
 
-/// What a user has to know of its inertia.
+/// Notes the inertia of an element for the user.
 void note_inertia(const water::Morison& m, const model::Body& body, bool inside,
                   system::System& s) {
   const std::string name = "morison " + in_quotes(m.name);

@@ -1,4 +1,4 @@
-/// Added mass and radiation that follow the poses of bodies.
+/// Added mass and radiation that depend on the poses of bodies.
 
 #include <utility>
 
@@ -10,7 +10,7 @@ namespace hydrodae::build {
 
 namespace {
 
-/// What the system has of the water before any database is read.
+/// Hydrodynamic data before any database is read.
 system::HydroData bare(const system::HydroData& h) {
   system::HydroData out;
   out.axes = h.axes;
@@ -20,7 +20,7 @@ system::HydroData bare(const system::HydroData& h) {
   return out;
 }
 
-/// The radiation of `scene`, whose database is that of one pose, checked by itself.
+/// Radiation of `scene`, whose database is that of one pose; checked separately.
 system::HydroData radiation_of(const model::Scene& scene, const system::HydroData& none,
                                system::System& s) {
   system::HydroData before = std::exchange(s.hydro, bare(none));
@@ -28,7 +28,7 @@ system::HydroData radiation_of(const model::Scene& scene, const system::HydroDat
   return std::exchange(s.hydro, std::move(before));
 }
 
-/// The block of one body: six rows, and the columns that move.
+/// Block of one body: six rows, and the moving columns.
 Matrix6 own_block(const system::HydroBody& hb, int number, const MatrixX& all) {
   Matrix6 out = Matrix6::Zero();
   for (int c = 0; c < 6; ++c)
@@ -37,7 +37,7 @@ Matrix6 own_block(const system::HydroBody& hb, int number, const MatrixX& all) {
   return out;
 }
 
-/// Appends the memory of one database, whose loads the weight multiplies; -1: nothing does.
+/// Appends the memory of one database; `weight` multiplies its loads, -1: none.
 void append_memory(const system::HydroData& from, int weight, system::HydroData& h) {
   const int first = h.n_states;
   for (system::HydroData::Block block : from.blocks) {
@@ -59,8 +59,8 @@ void append_memory(const system::HydroData& from, int weight, system::HydroData&
   h.weight_of_state.resize(static_cast<std::size_t>(h.n_states), weight);
 }
 
-/// The scene with the added mass that the splines make of the tables at many poses: between two of
-/// these a cubic has at most two extremes, which 8 steps find up to some percent.
+/// Checks the blended added mass at many poses: a cubic between two tables has at most two
+/// extremes, which 8 steps find within a few percent.
 void check_blends(const model::PoseTable& given, const water::PoseTable& table,
                   const system::HydroData& none, system::System& s) {
   constexpr int between = 8; ///< poses from one table to the next
@@ -68,7 +68,7 @@ void check_blends(const model::PoseTable& given, const water::PoseTable& table,
   std::vector<double> w(table.axis.weights.size()), slopes(w.size());
   const std::vector<double>& poses = given.poses();
   system::HydroData before = std::exchange(s.hydro, bare(none));
-  s.hydro.added_mass = before.added_mass; // of the other bodies
+  s.hydro.added_mass = before.added_mass; // added mass of the other bodies
   for (std::size_t k = 0; k + 1 < poses.size(); ++k)
     for (int part = 0; part <= between; ++part) {
       const double pose = poses[k] + (poses[k + 1] - poses[k]) * part / between;

@@ -11,8 +11,8 @@ namespace hydrodae::build {
 
 namespace {
 
-/// Samples of one kernel: over the last tenth of the memory it is let down to zero by a squared
-/// cosine, so that what leaves the memory does so smoothly.
+/// Samples of one kernel. Over the last tenth of the memory a squared cosine reduces it to zero, so
+/// that it ends smoothly.
 VectorX kernel_samples(const hydro::RadiationKernel& kernel, int row, int column, Eigen::Index n) {
   VectorX samples(n);
   const double end = static_cast<double>(n - 1);
@@ -25,8 +25,8 @@ VectorX kernel_samples(const hydro::RadiationKernel& kernel, int row, int column
   return samples;
 }
 
-/// Root mean square frequency of the kernels, of the fastest coordinate whose kernel matters beside
-/// its added mass [rad/s].
+/// Root mean square frequency of the kernels [rad/s], for the fastest coordinate whose kernel
+/// matters relative to its added mass.
 double kernel_frequency(const system::HydroData& h) {
   const system::Convolution& c = h.convolution;
   VectorX size = VectorX::Zero(h.n_moving), frequency = size;
@@ -61,12 +61,12 @@ std::vector<std::string> fill_convolution(const model::Scene& scene, system::Sys
   const auto n = std::min<Eigen::Index>(static_cast<Eigen::Index>(length / c.step + 1e-9) + 1,
                                         static_cast<Eigen::Index>(kernel.values.size()));
   c.length = c.step * static_cast<double>(n - 1);
-  std::vector<int> columns; // of the kernel, of each coordinate
+  std::vector<int> columns; // column of the kernel for each coordinate
   for (const system::HydroData::Coordinate& k : h.coordinates)
     columns.push_back(
         label_index(kernel.inputs, hydro_label(scene, h.bodies[k.hydro_body], k.component)));
   std::vector<VectorX> splines;
-  auto add_row = [&](int row, int from) { // `from`: of the kernel
+  auto add_row = [&](int row, int from) { // `from`: row of the kernel
     for (int u = 0; u < h.n_moving; ++u) {
       const VectorX samples = kernel_samples(kernel, from, columns[static_cast<std::size_t>(u)], n);
       if (samples.isZero(0.0))

@@ -1,4 +1,4 @@
-/// Damping of the tables and of the kernels, set by set of coupled coordinates.
+/// Damping of tables and kernels, for each set of coupled coordinates.
 
 #include "hydrodae/build/radiation_damping.h"
 
@@ -15,12 +15,12 @@ namespace {
 
 using Rows = Damping::Rows;
 
-/// An entry of a matrix that is zero elsewhere.
+/// Nonzero entry of a matrix.
 struct Entry {
   Index row = 0, column = 0;
 };
 
-/// Coordinates that entries join, and for each of its places the numbers of its entries.
+/// Coordinates joined by entries, and the numbers of the entries at each place.
 struct Coupled {
   Damping damping;
   std::vector<std::vector<std::size_t>> entries;
@@ -33,7 +33,7 @@ std::vector<Coupled> coupled(Index n, const std::vector<Entry>& entries) {
   Sets::Lists lists = sets.lists();
   struct Numbered {
     Definite::Place place;
-    std::size_t number = SIZE_MAX; ///< none: a diagonal without an entry has a place as well
+    std::size_t number = SIZE_MAX; ///< SIZE_MAX: a place on the diagonal without an entry
   };
   std::vector<std::vector<Numbered>> numbered(lists.members.size());
   for (std::size_t u = 0; u < lists.place.size(); ++u)
@@ -72,7 +72,7 @@ void set_diagonal(Damping& d) {
       d.diagonal.col(d.places[at].row) = d.real.col(static_cast<Index>(at));
 }
 
-/// Of an entry in the symmetric part over the masses.
+/// Factor of an entry in the symmetric part over the masses.
 double part_of(const Entry& e, const VectorX& root_mass) {
   return (e.row == e.column ? 1.0 : 0.5) / (root_mass[e.row] * root_mass[e.column]);
 }
@@ -100,7 +100,7 @@ std::vector<Damping> damping_of_table(const system::HydroData& h, const VectorX&
   return out;
 }
 
-// By trapezoids over the samples of the splines.
+// Trapezoidal rule over the samples of the splines.
 std::vector<Damping> damping_of_kernel(const system::HydroData& h, const VectorX& root_mass) {
   const system::Convolution& c = h.convolution;
   const Index n = c.splines.rows() - 2;

@@ -14,13 +14,16 @@ namespace {
 
 using Iterator = SparseMatrix::InnerIterator;
 
-constexpr double rank_tolerance = 1e-9; ///< of the largest pivot
-constexpr double damping = 1e-12;       ///< of the normal equations, whose diagonal is one
-constexpr double certain = 1e-3;        ///< pivot of those above which a row is independent
-constexpr double surely_certain = 1e-8; ///< the same where that leaves too many in doubt
+/// Least pivot of an independent row, as part of the largest pivot
+constexpr double rank_tolerance = 1e-9;
+constexpr double damping = 1e-12; ///< damping of the normal equations, whose diagonal is one
+/// Pivot of the normal equations above which a row is independent
+constexpr double certain = 1e-3;
+/// Higher limit for the case that too many rows would be in doubt
+constexpr double surely_certain = 1e-8;
 constexpr std::size_t most_doubtful_rows = 200;
 
-/// The rows and columns of one component. `place` has one entry per row of `matrix`: scratch.
+/// Rows and columns of one component. `place` has one entry per row of `matrix`: scratch.
 SparseMatrix block(const SparseMatrix& matrix, const Component& part, std::vector<Index>& place) {
   for (std::size_t i = 0; i < part.rows.size(); ++i)
     place[part.rows[i]] = static_cast<Index>(i);
@@ -38,8 +41,8 @@ bool is_small(const SparseMatrix& part, Index dense_limit) {
   return std::max(part.rows(), part.cols()) <= dense_limit;
 }
 
-/// Columns of A by falling pivots, those that come `first` before the others: these are ranked by
-/// what the first ones leave of them. Pivots of all follow in units of the largest.
+/// Columns of A by decreasing pivots, those of `first` before the others, whose pivots are their
+/// remainders after the first ones. Pivots are in units of the largest.
 std::vector<RankedRow> ranked_columns(const MatrixX& A, const std::vector<bool>& first) {
   std::vector<Index> own[2];
   for (Index k = 0; k < A.cols(); ++k)
@@ -51,7 +54,7 @@ std::vector<RankedRow> ranked_columns(const MatrixX& A, const std::vector<bool>&
     if (some.empty())
       continue;
     MatrixX left = A(Eigen::all, some);
-    for (int pass = 0; pass < 2 && span.cols() > 0; ++pass) // twice is enough against rounding
+    for (int pass = 0; pass < 2 && span.cols() > 0; ++pass) // twice suffices against rounding
       left -= span * (span.transpose() * left);
     const auto [order, pivots] = pivoted_columns(left);
     largest = std::max(largest, pivots[0]);
@@ -87,7 +90,7 @@ VectorX normalise_rows(SparseMatrix& part) {
   return size;
 }
 
-/// The damped normal equations G G^T + damping I, factorised as L D L^T.
+/// Damped normal equations G G^T + damping I, factorised as L D L^T.
 class NormalEquations {
 public:
   explicit NormalEquations(const SparseMatrix& G) : G_(G), transposed_(G.transpose()) {
@@ -97,8 +100,9 @@ public:
     ldlt_.compute(normal);
   }
 
-  // x = G^T l with (G G^T + damping I) dl = b - G x: each pass leaves damping / (s^2 + damping) of
-  // the gap along a singular value s; what no x can reach grows in l but never enters G^T l.
+  // Iterates x = G^T l with (G G^T + damping I) dl = b - G x: each pass leaves damping / (s^2 +
+  // damping) of the gap along a singular value s. The unreachable part grows in l but never enters
+  // G^T l.
   VectorX smallest_solution(const VectorX& b) const {
     VectorX x = VectorX::Zero(G_.cols());
     for (int pass = 0; pass < passes; ++pass)
@@ -106,15 +110,15 @@ public:
     return x;
   }
 
-  /// What the rows leave of v: v - G^T l with the smallest |v - G^T l|.
+  /// Remainder of v outside the rows: v - G^T l with the smallest |v - G^T l|.
   VectorX remainder(VectorX v) const {
     for (int pass = 0; pass < passes; ++pass)
       v -= transposed_ * VectorX(ldlt_.solve(G_ * v));
     return v;
   }
 
-  /// Squared distance of each row from the rows eliminated before it, by row; a row that follows
-  /// from them has the damping times one plus the square of its coefficients.
+  /// Squared distance of each row from the rows eliminated before it, by row; for a redundant row,
+  /// the damping times one plus the square of its coefficients.
   VectorX pivots() const { return ldlt_.permutationPinv() * VectorX(ldlt_.vectorD()); }
 
 private:
@@ -138,8 +142,9 @@ SparseMatrix some_rows(const SparseMatrix& part, const std::vector<Index>& rows)
   return out;
 }
 
-/// Squared distances of the rows from those eliminated before them, as `NormalEquations::pivots`;
-/// where few rows do not come first, 0 for these: what the first ones leave of them is asked then.
+/// Squared distances of the rows from those eliminated before them, as in
+/// `NormalEquations::pivots`. If few rows are not among the first, theirs are 0: their remainders
+/// are then computed.
 VectorX squared_pivots(const SparseMatrix& part, const std::vector<bool>& first) {
   std::vector<Index> own;
   for (Index i = 0; i < part.rows(); ++i)
@@ -156,9 +161,9 @@ VectorX squared_pivots(const SparseMatrix& part, const std::vector<bool>& first)
   return out;
 }
 
-/// Rows well away from the span of those before them are certain. Pivots of the normal equations
-/// are squares and say no more than that; of the few doubtful rows, what the certain ones leave of
-/// them is computed itself, and judged by the same tolerance as the dense pivots.
+/// Ranks rows. Those well away from the span of earlier rows are certain. Pivots of the normal
+/// equations are squares and can decide no more. For the few doubtful rows the remainder after the
+/// certain ones is computed, and judged by the tolerance of the dense pivots.
 std::vector<RankedRow> sparse_rows(SparseMatrix part, const std::vector<bool>& first) {
   normalise_rows(part);
   const VectorX pivots = squared_pivots(part, first);
@@ -199,7 +204,7 @@ VectorX sparse_solution(SparseMatrix part, const VectorX& b) {
 } // namespace
 
 std::vector<Component> components(const SparseMatrix& matrix) {
-  // Rows are joined by the columns that they share: a forest over the rows.
+  // Rows with common columns are joined: a forest over the rows.
   Sets sets(matrix.rows());
   std::vector<Index> first(matrix.cols(), -1);
   for (Index c = 0; c < matrix.cols(); ++c)

@@ -1,4 +1,4 @@
-/// The reactions of joints that laws feel.
+/// Joint reactions that laws depend on.
 
 #include <algorithm>
 #include <array>
@@ -19,8 +19,8 @@ using joint::BasicRow;
 constexpr std::array<std::string_view, 4> pressing_joints = {"prismatic", "revolute", "cylindrical",
                                                              "sliding"};
 
-/// Load on body B by a multiplier of one, in the pose where both markers coincide: force and moment
-/// along the axes of marker A.
+/// Load on body B by a unit multiplier, in the pose in which both markers coincide: force and
+/// moment along the axes of marker A.
 Vector6 load_on_b(const BasicRow& row) {
   const joint::Marker marker;
   const auto g = joint::geometry<double>(marker, Vector3::Zero(), Matrix3::Identity(),
@@ -29,7 +29,7 @@ Vector6 load_on_b(const BasicRow& row) {
   return joint::reaction(at.gradient, marker, marker, g);
 }
 
-/// Gradients of all rows of the scene that may be asked for, as columns by velocity coordinates.
+/// Gradients of all rows of the scene that may be needed, as columns by velocity coordinates.
 class Gradients {
 public:
   explicit Gradients(const system::Regime& s) : s_(s), ws_(s) {
@@ -67,8 +67,8 @@ private:
   system::Workspace<double> ws_;
 };
 
-/// Redundant rows that rows of this joint are part of: the reactions may be shared with them in any
-/// way. "gap along x of 'guide', ..."; empty: none.
+/// Text "gap along x of 'guide', ...": redundant rows that depend on rows of this joint, so that
+/// the reaction is shared arbitrarily; empty: none.
 std::string shared_rows(const system::Regime& s, const system::JointData& pressed) {
   constexpr double part = 1e-6;
   std::vector<std::pair<std::string, VectorX>> dropped;
@@ -111,7 +111,7 @@ std::string shared_rows(const system::Regime& s, const system::JointData& presse
   return joined(names);
 }
 
-/// A radius or a length that the joint needs, or that it has no use for.
+/// Checks the radii and lengths that the joint needs, and refuses others.
 void check_lengths(const system::JointData& j, const system::PortData& port,
                    const std::string& key) {
   const element::Bearing& b = *port.bearing;

@@ -17,14 +17,15 @@ namespace hydrodae::build {
 
 namespace {
 
-constexpr double dependent = 1e-9;  ///< pivots below are those of rows that follow from others
-constexpr double suspicious = 0.03; ///< pivots above are those of independent rows
-constexpr double apart = 0.1;       ///< of the pivot before: below, a suspicious one stands out
+constexpr double dependent = 1e-9;  ///< pivot below which a row is redundant
+constexpr double suspicious = 0.03; ///< pivot above which a row is independent
+/// Ratio to the pivot before, below which a suspicious pivot stands out
+constexpr double apart = 0.1;
 constexpr int drive_samples = 64;
-constexpr double stroke = 0.2; ///< of a body in a trial motion [arms, rad]
+constexpr double stroke = 0.2; ///< trial motion of a body [arms, rad]
 
-/// Trial motion of the bodies by which one unit of each velocity moves [m, rad], (n_u,): lengths of
-/// the geometry alone, since masses and units say nothing about a mechanism.
+/// Trial motion of the bodies for one unit of each velocity [m, rad], (n_u,): by lengths of the
+/// geometry only, because masses and units are arbitrary.
 VectorX trial_scale(const system::System& s) {
   std::vector<double> arm(s.bodies.size(), INFINITY);
   for (const system::JointData& j : s.joints)
@@ -43,11 +44,11 @@ VectorX trial_scale(const system::System& s) {
   return out;
 }
 
-/// A uniform number in [-1, 1).
+/// Uniform random number in [-1, 1).
 double draw(std::mt19937& random) { return 2.0 * (random() / 4294967296.0) - 1.0; }
 
-/// The start, and up to four closed poses near it of each mechanism. A mechanism that closes in
-/// fewer trials rests in the start in the last of them.
+/// Start, and up to four closed poses near it for each mechanism. A mechanism that closes in fewer
+/// trials is at its start in the last ones.
 std::vector<VectorX> poses_near(const system::Regime& s, const VectorX& start) {
   constexpr std::size_t most = 4;
   Constraints constraints(s);
@@ -70,7 +71,7 @@ std::vector<VectorX> poses_near(const system::Regime& s, const VectorX& start) {
   return out;
 }
 
-/// Marks rows of the mask as left out, for as long as it lives.
+/// Marks rows of the mask as omitted during its lifetime.
 class LeftOut {
 public:
   LeftOut(system::System& s, const system::Regime& rows, const Mask& mask) {
@@ -93,14 +94,14 @@ private:
   std::vector<system::Row*> rows_;
 };
 
-/// Which of the rows of `asked` hold elsewhere, though their gradients nearly follow from the
-/// others here: the pose is singular. While the bodies move there and back as the others let them,
-/// the gap of a row that follows from the others changes as little as its gradient promises; that
-/// of a bar across a dead point curves by itself.
+/// Rows of `asked` that are independent elsewhere, although their gradients nearly depend on the
+/// others here: the pose is singular. The bodies move to and fro as the other rows allow. The gap
+/// of a redundant row changes as little as its gradient predicts; that of a bar across a dead point
+/// curves.
 Mask curved_rows(system::System& s, const system::Regime& rows, const Mask& asked,
                  const Mask& left_out, const VectorX& start) {
-  constexpr double noise = 10.0 * nearly_closed; // of gaps [arms, rad]
-  constexpr double curved = 0.3;                 // second difference over first
+  constexpr double noise = 10.0 * nearly_closed; // noise of gaps [arms, rad]
+  constexpr double curved = 0.3;                 // ratio of second to first difference
   Mask out(asked.size(), false);
   const LeftOut without(s, rows, left_out);
   const system::Regime others(s);
@@ -113,7 +114,7 @@ Mask curved_rows(system::System& s, const system::Regime& rows, const Mask& aske
     VectorX full = y;
     system::resize(rows, full);
     all.evaluate(full, gap, rates);
-    // Without their doubtful rows the bodies of a mechanism may be several.
+    // Without their doubtful rows the bodies may form several mechanisms.
     std::vector<bool> open(static_cast<std::size_t>(all.n_mechanisms()), false);
     for (Index k = 0; k < s.n_u; ++k)
       if (!(left[constraints.owner(k)] < nearly_closed))
@@ -128,10 +129,12 @@ Mask curved_rows(system::System& s, const system::Regime& rows, const Mask& aske
     VectorX back = there;
     retract(s, step.cwiseProduct(scale), there);
     const std::vector<bool> open_there = close_at(there, gaps[0]);
-    back.head(s.n_q) = 2.0 * back.head(s.n_q) - there.head(s.n_q); // as far the other way
+    // the same motion in the opposite direction
+    back.head(s.n_q) = 2.0 * back.head(s.n_q) - there.head(s.n_q);
     system::normalise(s, back);
     const std::vector<bool> open_back = close_at(back, gaps[1]);
-    VectorX second = VectorX::Zero(all.n_rows()), first = second; // of the gaps [arms, rad]
+    // differences of the gaps [arms, rad]
+    VectorX second = VectorX::Zero(all.n_rows()), first = second;
     for (Index i = 0; i < all.n_rows(); ++i)
       if (const auto m = static_cast<std::size_t>(all.mechanism(i));
           asked[static_cast<std::size_t>(i)] && !open_there[m] && !open_back[m]) {
@@ -139,7 +142,7 @@ Mask curved_rows(system::System& s, const system::Regime& rows, const Mask& aske
         second[i] = 0.5 * unit * std::abs(gaps[0][i] + gaps[1][i]);
         first[i] = 0.5 * unit * std::abs(gaps[0][i] - gaps[1][i]);
       }
-    // A hinge out of line opens e sin(turn) one way, and e (1 - cos(turn)) across it.
+    // A misaligned hinge opens e sin(turn) one way, and e (1 - cos(turn)) across it.
     const VectorX least = (curved * all.largest_row(first)).cwiseMax(noise);
     for (Index i = 0; i < all.n_rows(); ++i)
       if (second[i] > least[all.mechanism(i)])
@@ -148,14 +151,14 @@ Mask curved_rows(system::System& s, const system::Regime& rows, const Mask& aske
   return out;
 }
 
-/// Does the drive move what it drives?
+/// Returns whether the drive moves its coordinate.
 bool moves(const system::CouplerData& c) {
   const Drive& d = c.drive;
   return d.rate != 0.0 || d.amplitude != 0.0 || !d.time.empty() || d.python ||
          (c.velocity_level && d.constant != 0.0);
 }
 
-/// The k-th pivot of the pose in which it is largest.
+/// Largest k-th pivot over all poses.
 std::vector<double> best_pivots(const std::vector<const Ranking*>& poses) {
   std::vector<double> out(poses.front()->rows.size(), 0.0);
   for (const Ranking* pose : poses)
@@ -164,7 +167,7 @@ std::vector<double> best_pivots(const std::vector<const Ranking*>& poses) {
   return out;
 }
 
-/// The pose to choose the rows from: the start, if its rows are as independent as elsewhere.
+/// Pose for the choice of rows: the start, if its rows are as independent as elsewhere.
 std::size_t best_pose(const std::vector<const Ranking*>& poses, std::size_t rank) {
   std::size_t best = 0;
   const auto last = [&](std::size_t pose) {
@@ -176,8 +179,7 @@ std::size_t best_pose(const std::vector<const Ranking*>& poses, std::size_t rank
   return best;
 }
 
-/// Coefficients by which a row follows from others, of the rows that are `used`; the sizes of the
-/// rows are their scales.
+/// Coefficients of a row in terms of the rows `used`; rows are in units of their scales.
 /// @param transposed  gradient (n_u, rows)
 VectorX coefficients(const SparseMatrix& transposed, const std::vector<Index>& used, Index row) {
   SparseMatrix others(transposed.rows(), static_cast<Index>(used.size()));
@@ -189,7 +191,7 @@ VectorX coefficients(const SparseMatrix& transposed, const std::vector<Index>& u
   return smallest_solution(others, VectorX(transposed.col(row)));
 }
 
-/// "'upper', 'frame'": joints and constraints that a row nearly follows from.
+/// Text "'upper', 'frame'": joints and constraints that a row nearly depends on.
 std::string partners(const Constraints& constraints, const SparseMatrix& transposed,
                      const std::vector<Index>& used, Index row) {
   const VectorX c = coefficients(transposed, used, row);
@@ -206,7 +208,7 @@ std::string partners(const Constraints& constraints, const SparseMatrix& transpo
   return names.empty() ? "its own rows" : joined(names);
 }
 
-/// "0.0001 m" or "0.006 deg" for a pivot.
+/// Text "0.0001 m" or "0.006 deg" for a pivot.
 std::string misfit_text(const Constraints& constraints, const RankedRow& row) {
   return constraints.is_angle(row.row)
              ? rounded_text(row.pivot * 180.0 / pi) + " deg"
@@ -243,17 +245,18 @@ std::string misfit_text(const Constraints& constraints, const RankedRow& row) {
           "spring_damper; solver.force cannot hold such rows");
 }
 
-/// Which rows of a mechanism to keep, of those of a mask.
+/// Choice of the rows of a mechanism to keep.
 struct Selection {
-  std::vector<Index> kept;                        ///< independent, most so first
-  std::vector<RankedRow> dropped;                 ///< with their largest pivot
-  std::size_t at_start = 0;                       ///< how many are independent in the start
-  std::vector<double> pivots;                     ///< of those kept
-  std::shared_ptr<const SparseMatrix> transposed; ///< gradient (n_u, rows) where they were chosen
+  std::vector<Index> kept;        ///< kept rows, the most independent first
+  std::vector<RankedRow> dropped; ///< dropped rows with their largest pivot
+  std::size_t at_start = 0;       ///< number of independent rows at the start
+  std::vector<double> pivots;     ///< pivots of the kept rows
+  /// Gradient (n_u, rows) at the pose of the choice
+  std::shared_ptr<const SparseMatrix> transposed;
 };
 
-/// The selection of one mechanism from its rankings in all poses.
-/// @param pose  the pose that the rows were chosen in
+/// Selection of one mechanism from its rankings in all poses.
+/// @param pose  pose in which the rows are chosen
 Selection select_in_mechanism(const std::vector<const Ranking*>& rankings, double tolerance,
                               std::size_t& pose) {
   const std::vector<double> pivots = best_pivots(rankings);
@@ -272,11 +275,11 @@ Selection select_in_mechanism(const std::vector<const Ranking*>& rankings, doubl
   return out;
 }
 
-/// The selections of all mechanisms that have rows in the mask.
+/// Selections of all mechanisms with rows in the mask.
 std::vector<Selection> select(const system::Regime& s, const Mask& mask,
                               const std::vector<VectorX>& poses, double tolerance) {
   Constraints constraints(s);
-  std::vector<std::vector<Ranking>> rankings; // by pose, by mechanism
+  std::vector<std::vector<Ranking>> rankings; // rankings by pose and mechanism
   std::vector<std::shared_ptr<const SparseMatrix>> gradients;
   for (const VectorX& y : poses) {
     rankings.push_back(rank_at(s, constraints, mask, y));
@@ -297,12 +300,12 @@ std::vector<Selection> select(const system::Regime& s, const Mask& mask,
   return out;
 }
 
-/// Rate that a drive gives its row at t, in units of the row.
+/// Rate of a drive in its row at t, in units of the row.
 double drive_rate(const system::CouplerData& c, double t) {
   return c.drive(t)[c.velocity_level ? 0 : 1];
 }
 
-/// A row that follows from others must follow from their drives, too, at all times.
+/// Checks that a redundant row follows from others with their drives, too, at all times.
 void check_drives(const system::Regime& s, const Constraints& constraints, const Selection& chosen,
                   const Fit& fit) {
   std::vector<const system::CouplerData*> drive(static_cast<std::size_t>(s.n_lambda), nullptr);
@@ -361,11 +364,11 @@ void check_drives(const system::Regime& s, const Constraints& constraints, const
   }
 }
 
-/// Refuses the rows of a mechanism that are only nearly dependent: those of joints out of line with
-/// each other, and those that lock it in a singular pose.
+/// Refuses nearly dependent rows of a mechanism: misaligned joints, and rows that lock it in a
+/// singular pose.
 void judge_doubtful_rows(const Constraints& constraints, const Selection& held, const Mask& curved,
                          const Fit& fit) {
-  // A closed pose of a locked mechanism is as far from the singular one as sqrt(gap) allows.
+  // A closed pose of a locked mechanism is within sqrt(gap) of the singular one.
   const double resolved = 3.0 * std::sqrt(nearly_closed);
   const auto is_curved = [&](Index row) { return curved[static_cast<std::size_t>(row)]; };
   for (const RankedRow& row : held.dropped)
@@ -402,7 +405,8 @@ void judge_doubtful_rows(system::System& s, const system::Regime& rows,
     judge_doubtful_rows(constraints, one, curved, fit);
 }
 
-/// Rows that gave way though they follow from others up to the tolerance alone: one line a joint.
+/// Messages on rows that were dropped although they are redundant only within the tolerance: one
+/// line per joint.
 std::vector<std::string> loose_rows(const Constraints& constraints,
                                     const std::vector<Selection>& held) {
   std::set<std::string> named;
@@ -436,7 +440,7 @@ void drop_dependent_rows(system::System& s, const VectorX& start, const Fit& fit
                   [](const Ranking& r) { return r.rank(suspicious) == r.rows.size(); }))
     return;
   const std::vector<VectorX> poses = poses_near(rows, start);
-  // First what is held for ever, then what the drives move.
+  // First the rows at rest, then those that drives move.
   const std::vector<Selection> held =
       select(rows, resting, poses, fit.force ? std::min(dependent, fit.tolerance) : fit.tolerance);
   judge_doubtful_rows(s, rows, constraints, held, resting, start, fit);
@@ -453,7 +457,7 @@ void drop_dependent_rows(system::System& s, const VectorX& start, const Fit& fit
     rest[i] = rest[i] || !resting[i];
   const std::vector<Selection> moved = resting == all ? held : select(rows, rest, poses, dependent);
   std::vector<Index> kept;
-  std::size_t more = 0; // degrees of freedom in the start
+  std::size_t more = 0; // degrees of freedom at the start
   for (const Selection& one : moved) {
     check_drives(rows, constraints, one, fit);
     kept.insert(kept.end(), one.kept.begin(), one.kept.end());
@@ -470,7 +474,7 @@ void drop_dependent_rows(system::System& s, const VectorX& start, const Fit& fit
     const Index lambda = rows.lambda(row);
     if (lambda == system::redundant ||
         std::binary_search(kept.begin(), kept.end(), lambda - s.lambda0))
-      return; // a switch that is open has no row now
+      return; // an open switch has no row now
     names.push_back(rows.row_names[velocity_level ? lambda : rows.mu(row)]);
     row.dropped = true;
   });

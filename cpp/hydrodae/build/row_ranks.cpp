@@ -7,9 +7,9 @@ namespace hydrodae::build {
 
 namespace {
 
-/// Rows and bodies scaled so that neither a body's size nor its mass decides: rotations count by
-/// the arm of the body, and the largest entry of each row, and of the columns of each body
-/// together, is about one. (A factor for each column would hide what a body can hardly do.)
+/// Scales rows and bodies so that neither size nor mass of a body matters. Rotations count by the
+/// arm of the body; the largest entry of each row, and of the columns of each body together, is
+/// about one. (A factor for each column would hide motions that a body can hardly make.)
 SparseMatrix balanced(const system::System& s, SparseMatrix G) {
   for (const system::BodyData& b : s.bodies)
     for (int k = 0; k < b.n_active; ++k)

@@ -1,5 +1,5 @@
-/// What one unit of tolerance means for each unknown. Global coordinates say nothing about the size
-/// of a motion, so positions are measured against a length of the body itself.
+/// Size of one unit of tolerance for each unknown. Global coordinates do not show the size of a
+/// motion, so positions are measured against a length of the body.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace hydrodae::build {
 
 namespace {
 
-/// Distance of the farthest joint from the centre of gravity, 0: none is off it [m].
+/// Distance of the farthest joint from the centre of gravity [m]; 0: all joints are there.
 double farthest_joint(const system::System& s, int body) {
   double arm = 0.0;
   for (const system::JointData& j : s.joints) {
@@ -24,8 +24,8 @@ double farthest_joint(const system::System& s, int body) {
   return arm;
 }
 
-/// The arm at which the body feels its rotation: radius of gyration, farthest joint, or size of the
-/// displaced volume [m].
+/// Lever of the rotations of a body [m]: radius of gyration, farthest joint, or size of the
+/// displaced volume.
 double lever(const system::System& s, const model::Scene& scene, int body, double farthest) {
   const system::BodyData& b = s.bodies[body];
   const double gyration = b.inertia.diagonal().maxCoeff();

@@ -55,7 +55,7 @@ void check_coverage(const hydro::Database& db, const sea::Wave& wave,
 
 using Terms = water::Excitation::Terms;
 
-/// The load of the waves on one body, from one database.
+/// Wave load on one body, from one database.
 struct BodyLoad {
   Eigen::MatrixXcd total, froude_krylov; ///< coefficients of the functions of yaw
 };
@@ -63,10 +63,10 @@ struct BodyLoad {
 /// Functions of time of all terms, their rows in the order of the list.
 struct Functions {
   Eigen::MatrixXcd rows;
-  VectorX whole; ///< root of sum |C|^2 of the coordinate that each row is a part of
+  VectorX whole; ///< root of sum |C|^2 of the coordinate that each row belongs to
   Index count = 0;
 
-  /// Takes the rows of some terms of one body, from its loads by pose.
+  /// Appends the rows of some terms of one body, from its loads by pose.
   void add(const std::vector<BodyLoad>& loads, Eigen::MatrixXcd BodyLoad::* part, Terms& terms) {
     terms.first = count;
     if (terms.list.empty())
@@ -84,7 +84,7 @@ struct Functions {
   }
 };
 
-/// The tables of one database as functions of frequency and heading.
+/// Tables of one database as functions of frequency and heading.
 struct Source {
   hydro::Database db;
   hydro::Excitation total;
@@ -107,11 +107,12 @@ std::vector<std::string> labels_of(const model::Scene& scene, const system::Syst
   return labels;
 }
 
-/// The databases of the excitation: of the scene, then those of each table over poses.
+/// Databases of the excitation: that of the scene, and those of each pose table.
 struct Sources {
   std::unique_ptr<Source> main;
-  std::vector<std::vector<std::unique_ptr<Source>>> of_body; ///< by pose; empty: the main one
-  bool split = true; ///< do all know their Froude-Krylov part?
+  /// Sources by pose; empty: the main one
+  std::vector<std::vector<std::unique_ptr<Source>>> of_body;
+  bool split = true; ///< true: all contain their Froude-Krylov part
   std::string symmetry;
 
   Sources(const model::Scene& scene, const system::System& s) : of_body(s.hydro.bodies.size()) {
@@ -137,7 +138,7 @@ struct Sources {
     }
   }
 
-  /// Those of body i, by pose.
+  /// Sources of body i, one for each pose of its table.
   std::vector<const Source*> of(std::size_t i) const {
     std::vector<const Source*> out;
     for (const std::unique_ptr<Source>& source : of_body[i])
@@ -146,7 +147,7 @@ struct Sources {
   }
 };
 
-/// Where a body is for the tables of pose k.
+/// Pose of a body for the tables of pose k.
 hull::Pose pose_of_table(const model::Scene& scene, const model::Body& body, int k) {
   hull::Pose out{body.center_of_gravity, Matrix3::Identity()};
   if (const model::PoseTable* table = model::pose_table(scene, body.name)) {
@@ -159,7 +160,7 @@ hull::Pose pose_of_table(const model::Scene& scene, const model::Body& body, int
   return out;
 }
 
-/// The load of one source on a body; its terms go to those of the body.
+/// Adds the load of one source on a body; its terms go to those of the body.
 BodyLoad add_load(const model::Scene& scene, const Source& source, std::size_t i, int pose,
                   const Meeting& meeting, const YawSamples& samples,
                   const std::vector<sea::Component>& all, bool split,
@@ -168,7 +169,7 @@ BodyLoad add_load(const model::Scene& scene, const Source& source, std::size_t i
   BodyLoad load{yaw_coefficients(source.total, 6 * i, meeting, samples, all), {}};
   if (split)
     load.froude_krylov = yaw_coefficients(*source.froude_krylov, 6 * i, meeting, samples, all);
-  if (entry.waves_by_mesh()) { // that load is the mesh's: the diffraction is left
+  if (entry.waves_by_mesh()) { // the mesh has that load: the diffraction remains
     load.total -= mesh_coefficients(scene, *entry.hull, pose_of_table(scene, entry, pose), meeting,
                                     samples, all);
     load.froude_krylov.setZero();
@@ -190,7 +191,7 @@ BodyLoad add_load(const model::Scene& scene, const Source& source, std::size_t i
   return load;
 }
 
-/// The bodies with their terms, and the functions of time of these, the elevation last.
+/// Bodies with their terms, and the functions of time, the elevation last.
 std::vector<water::Excitation::Body> wave_loads(const model::Scene& scene, const system::System& s,
                                                 const Sources& sources,
                                                 const std::vector<Meeting>& meetings,
@@ -218,7 +219,7 @@ std::vector<water::Excitation::Body> wave_loads(const model::Scene& scene, const
   }
   functions.rows.conservativeResize(functions.count + 1, std::ssize(all));
   functions.whole.conservativeResize(functions.count + 1);
-  functions.whole[functions.count] = 0.0; // the elevation is whole
+  functions.whole[functions.count] = 0.0; // the elevation has no parts
   for (std::size_t i = 0; i < all.size(); ++i)
     functions.rows(functions.count, static_cast<Index>(i)) =
         std::polar(all[i].amplitude, all[i].phase);
@@ -255,7 +256,7 @@ Sea draw_sea(const model::Scene& scene) {
 
 void add_sea(const model::Scene& scene, const Sea& sea, system::System& s) {
   if (scene.waves.empty() || !scene.database)
-    return; // Morison elements feel the waves by themselves
+    return; // Morison elements read the waves themselves
   const Sources sources(scene, s);
   const hydro::Database& db = sources.main->db;
   const system::HydroData& h = s.hydro;

@@ -1,5 +1,5 @@
 #pragma once
-/// The sea of a scene, drawn once for all that feels it.
+/// Sea of a scene, drawn once for all loads.
 
 #include "hydrodae/model/scene.h"
 #include "hydrodae/sea/kinematics.h"
@@ -7,19 +7,19 @@
 namespace hydrodae::build {
 
 struct Sea {
-  /// Each wave of the scene by itself.
+  /// Components of one wave of the scene.
   struct System {
     std::vector<sea::Component> components;
-    std::string note; ///< how they were made, in words; "" where there is nothing to say
+    std::string note; ///< note on their origin; "" if missing
   };
   std::vector<System> systems;
-  std::vector<sea::Component> all; ///< of all systems, in their order
+  std::vector<sea::Component> all; ///< components of all systems, in their order
   sea::WaveField field;            ///< all waves and the current, in water of the scene's depth
   std::shared_ptr<const sea::SecondOrder> second; ///< of gauges; null in a sea of first order
   std::string note;                               ///< what there is of second order; "" without
 };
 
-/// Throws ModelError where too much of a wave lies outside the frequencies of the database.
+/// Throws ModelError if too much of a wave lies outside the frequencies of the database.
 Sea draw_sea(const model::Scene& scene);
 
 } // namespace hydrodae::build

@@ -12,24 +12,26 @@ namespace hydrodae::build {
 
 namespace {
 
-constexpr double exact = 1e-12;  ///< rates, in units of their scale, that count as none
-constexpr double digits = 1e-6;  ///< of the largest velocity given: below, nothing is said
-constexpr double allowed = 1e-3; ///< likewise: above, the case contradicts itself
+constexpr double exact = 1e-12; ///< rate that counts as zero, in units of its scale
+/// Difference without a note, as part of the largest given velocity
+constexpr double digits = 1e-6;
+/// Largest allowed difference, as part of the largest given velocity
+constexpr double allowed = 1e-3;
 
-/// Conditions on the velocities, in displacements of one unit per second: matrix x = target. The
-/// constraints come first, then what the case gives.
+/// Conditions on the velocities, in unit displacements per second: matrix x = target. The
+/// constraints come first, then the values of the case.
 struct Conditions {
   struct Given { ///< one velocity or rate of the case
     int body = -1, motion = -1;
     bool turns = false;
-    double length = 1.0; ///< [m] of one unit of displacement, angles by the lever
-    double unit = 1.0;   ///< [m or rad] of one unit
+    double length = 1.0; ///< size of a unit displacement [m], for angles by the lever
+    double unit = 1.0;   ///< unit [m or rad]
   };
   SparseMatrix matrix;
   VectorX target;
   Index n_constraints = 0;
-  std::vector<Given> given;      ///< of the rows after the constraints
-  std::vector<BodyStart> starts; ///< where they come from
+  std::vector<Given> given;      ///< values of the rows after the constraints
+  std::vector<BodyStart> starts; ///< origin of the values
   const BodyStart* start_of(int body) const {
     const auto found = std::find_if(starts.begin(), starts.end(),
                                     [&](const BodyStart& a) { return a.body == body; });
@@ -45,7 +47,7 @@ SparseMatrix matrix_of(const Entries& entries, Index rows, Index columns) {
   return out;
 }
 
-/// Rows v_k = given for the free coordinates of a body whose velocity is given.
+/// Adds rows v_k = given for the free coordinates of bodies with given velocity.
 void add_bodies(const system::System& s, const std::vector<BodyStart>& given,
                 const Constraints& constraints, Entries& entries, std::vector<double>& target,
                 Conditions& out) {
@@ -67,7 +69,7 @@ void add_bodies(const system::System& s, const std::vector<BodyStart>& given,
   }
 }
 
-/// All conditions at the pose evaluated last; `rates` are those of the rows at rest.
+/// All conditions at the last pose; `rates` are those of the rows at rest.
 Conditions conditions(const system::System& s, const std::vector<BodyStart>& given,
                       const Constraints& constraints, const VectorX& rates) {
   Conditions out;
@@ -103,10 +105,10 @@ Conditions conditions(const system::System& s, const std::vector<BodyStart>& giv
   return out;
 }
 
-/// Displacements by coordinates y in which the kinetic energy is |y|^2 / 2: x = L^-T y, with
-/// L L^T the mass matrix of each body. Bodies without a mass follow from the others.
+/// Coordinates y in which the kinetic energy is |y|^2 / 2: x = L^-T y, with L L^T the mass matrix
+/// of each body. Bodies without mass follow from the others.
 SparseMatrix energy_coordinates(const system::System& s, const Constraints& constraints) {
-  constexpr double next_to_nothing = 1e-8; // of the masses that count
+  constexpr double next_to_nothing = 1e-8; // part of the masses that count
   Entries entries;
   for (const system::BodyData& b : s.bodies) {
     const Matrix6 rigid = system::rigid_mass(b);
@@ -127,13 +129,13 @@ SparseMatrix energy_coordinates(const system::System& s, const Constraints& cons
   return matrix_of(entries, s.n_u, s.n_u);
 }
 
-/// Of all x that meet the conditions as `x` does, the one of least kinetic energy: the motion of
-/// bodies that are struck at rest (Kelvin's theorem; Lamb, Hydrodynamics, section 136).
+/// Solution with the least kinetic energy among all that meet the conditions as `x` does: the
+/// motion of bodies struck at rest (Kelvin's theorem; Lamb, Hydrodynamics, section 136).
 VectorX least_energy(const Conditions& all, const SparseMatrix& coordinates, const VectorX& x) {
   const VectorX met = all.matrix * x;
   const SparseMatrix matrix = all.matrix * coordinates;
   VectorX y = VectorX::Zero(x.size());
-  for (int pass = 0; pass < 3; ++pass) // linear; the further passes remove rounding
+  for (int pass = 0; pass < 3; ++pass) // linear; further passes remove rounding
     y += smallest_solution(matrix, met - matrix * y);
   const VectorX out = coordinates * y;
   return out.allFinite() ? out : x;
@@ -144,7 +146,7 @@ std::string vector_text(const Vector3& v) {
   return "[" + number(v[0]) + ", " + number(v[1]) + ", " + number(v[2]) + "]";
 }
 
-/// The velocity that a row stands for: as given, and as the constraints allow it.
+/// Velocity of a row: as given, and as the constraints allow it.
 struct Told {
   std::string key, name, unit, from, to;
 };
@@ -177,7 +179,7 @@ Told tell(const system::System& s, const Constraints& constraints, const Conditi
           vector_text(g.turns ? *start->angular_velocity : *start->velocity), vector_text(v)};
 }
 
-/// Largest velocity that the case gives, of each connected part [m/s], by row.
+/// Largest given velocity of each connected part [m/s], by row.
 VectorX speeds(const Conditions& all, const Constraints& constraints) {
   VectorX size(all.target.size());
   for (Index i = 0; i < all.n_constraints; ++i)
@@ -197,7 +199,8 @@ VectorX speeds(const Conditions& all, const Constraints& constraints) {
   return out;
 }
 
-/// What was given must be met: up to its digits, else up to a note, else not at all.
+/// Keeps given velocities exactly if the constraints allow it; otherwise within their printed
+/// digits, with a note; otherwise refuses the case.
 void judge(system::System& s, const Constraints& constraints, const Conditions& all,
            const VectorX& x) {
   const VectorX speed = speeds(all, constraints), misfit = all.matrix * x - all.target;
@@ -235,7 +238,7 @@ void judge(system::System& s, const Constraints& constraints, const Conditions& 
   s.notes.insert(s.notes.end(), told.begin(), told.end());
 }
 
-/// Which bodies got a velocity that the case does not give.
+/// Notes bodies with a velocity that the case does not give.
 void note_completed(system::System& s, const Conditions& all, const VectorX& x) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
@@ -284,7 +287,7 @@ void start_velocities(system::System& s, const std::vector<BodyStart>& given,
   if (worst(all.matrix * x - all.target) > exact) {
     x = smallest_solution(all.matrix, all.target);
     const SparseMatrix G = all.matrix.topRows(all.n_constraints);
-    for (int pass = 0; pass < 2; ++pass) // the constraints themselves hold exactly
+    for (int pass = 0; pass < 2; ++pass) // the constraints hold exactly
       x += smallest_solution(G, all.target.head(all.n_constraints) - G * x);
     judge(s, constraints, all, x);
     x = least_energy(all, energy_coordinates(s, constraints), x);

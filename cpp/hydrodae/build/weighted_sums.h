@@ -6,10 +6,11 @@
 
 namespace hydrodae::build {
 
-constexpr double sum_budget = 4e8; ///< multiplications that the sums over all entries may take
+/// Largest number of multiplications of the sums over all entries
+constexpr double sum_budget = 4e8;
 
-/// table^T weights (n_frequencies, n_columns) for weights (n, n_frequencies); the columns of
-/// `weights` are filled up with zeros to whole registers.
+/// Product table^T weights (n_frequencies, n_columns) for weights (n, n_frequencies); zeros pad the
+/// columns of `weights` to whole registers.
 /// @param fill  writes the column of that number of the table, zero at first
 template <class Fill>
 Damping::Rows weighted(const Damping::Rows& weights, Index n_frequencies, Index n_columns,

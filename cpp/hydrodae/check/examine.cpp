@@ -25,10 +25,11 @@ namespace {
 
 using system::System;
 
-constexpr double resting = 1e-9; ///< of the largest, measured by the scales of the bodies
+/// Rest, as part of the largest motion in units of the scales of the bodies
+constexpr double resting = 1e-9;
 constexpr std::size_t longest_list = 30;
 
-/// Drives that surely accelerate what they drive, from the same values.
+/// Replaces drives by others that surely accelerate, from the same values.
 void stir_drives(System& s) {
   for (system::CouplerData& c : s.couplers) {
     const bool steady =
@@ -44,17 +45,17 @@ void stir_drives(System& s) {
   }
 }
 
-/// The waves as they are at some time after the ramp: every component at a phase of its own.
+/// Replaces the waves by those at some time after the ramp, with a random phase of each component.
 template <class Draw> void stir_waves(const System& given, System& s, Draw&& draw) {
   for (std::size_t k = 0; k < s.elements.size(); ++k)
     if (auto stirred = given.elements[k].laws->stirred(draw))
       s.elements[k].laws = std::move(stirred);
 }
 
-/// The first velocity coordinate of a body in vectors of length n_u.
+/// Offset of a body's velocity coordinates in vectors of length n_u.
 Index first(const System& s, const system::BodyData& b) { return b.u0 - s.u0; }
 
-/// What of this body never moves, in words: "sway, roll, yaw".
+/// Coordinates of this body that never move: "sway, roll, yaw".
 std::vector<std::string> resting_coordinates(const System& s, const system::BodyData& b,
                                              const std::vector<bool>& never) {
   std::vector<std::string> out;
@@ -64,7 +65,7 @@ std::vector<std::string> resting_coordinates(const System& s, const system::Body
   return out;
 }
 
-/// The cheapest `motion` that has all coordinates that move.
+/// Cheapest `motion` with all coordinates that move.
 std::string lesser_motion(const System& s, const system::BodyData& b,
                           const std::vector<bool>& never) {
   std::array<bool, 6> moves{};
@@ -110,7 +111,7 @@ void advise_bodies(std::ostream& out, const System& s, const std::vector<bool>& 
   }
 }
 
-/// Does a force or a constraint act on a coordinate of this joint?
+/// Returns whether a force or a constraint acts on a coordinate of this joint.
 bool joint_is_used(const model::Scene& scene, const std::string& name) {
   bool used = std::any_of(
       scene.constraints.begin(), scene.constraints.end(), [&](const model::Constraint& c) {
@@ -127,7 +128,7 @@ bool joint_is_used(const model::Scene& scene, const std::string& name) {
   return used;
 }
 
-/// Joints whose work an eliminated coordinate does for nothing.
+/// Advises on joints that a locked coordinate could replace without cost.
 void advise_joints(std::ostream& out, const model::Scene& scene) {
   const auto mobile = [&](const std::string& name) {
     const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(),
@@ -199,7 +200,7 @@ std::vector<bool> never_excited(const System& given, const system::Pattern& patt
     VectorX y = start, step = VectorX::Zero(s.n_u), yp;
     stir_waves(given, stirred_system, draw);
     if (round > 0) {
-      for (std::size_t k = 0; k < s.couplers.size(); ++k) { // what a drive does later
+      for (std::size_t k = 0; k < s.couplers.size(); ++k) { // later action of a drive
         system::CouplerData& c = stirred_system.couplers[k];
         if (s.holds(c) && !c.velocity_level && c.drive.amplitude != 0.0)
           c.drive.constant = given_drives[k] + draw() * s.row_scale[s.mu(c)];
@@ -224,7 +225,7 @@ std::vector<bool> never_excited(const System& given, const system::Pattern& patt
         return {};
       continue; // a singular pose
     }
-    // Velocities and accelerations, each in displacements of one unit over the body's own time.
+    // Velocities and accelerations, both as unit displacements over the body's time scale.
     const VectorX speed = y.segment(s.u0, s.n_u).cwiseProduct(time).cwiseQuotient(size);
     const VectorX rate =
         yp.segment(s.u0, s.n_u).cwiseProduct(time).cwiseProduct(time).cwiseQuotient(size);
@@ -248,7 +249,7 @@ std::vector<bool> never_excited(const System& given, const system::Pattern& patt
 
 namespace {
 
-/// What controllers read and write, and all that may be written.
+/// Writes the channels that controllers read and the inputs that may be written.
 void write_inputs(std::ostream& out, const model::Scene& scene, system::Regime& s,
                   std::vector<Channel> channels) {
   std::vector<run::Input> inputs = run::find_inputs(s);
@@ -263,10 +264,10 @@ void write_inputs(std::ostream& out, const model::Scene& scene, system::Regime& 
   for (const model::Controller& c : scene.controllers) {
     const control::Terminals found = run::find_terminals(c, channels, inputs);
     if (!c.as<control::Outside>())
-      run::make_law(c, found, s); // or refuses
+      run::make_law(c, found, s); // throws if it does not fit
     std::vector<std::string> units = run::unit_notes(c->name, found);
     if (const auto* fmu = c.as<control::Fmu>())
-      for (const std::string& note : cosim::check_fmu(*fmu, found)) // or refuses
+      for (const std::string& note : cosim::check_fmu(*fmu, found)) // throws if it does not fit
         units.push_back(note);
     out << "  controller " << c->name << " (" << c.type() << "): every " << c->period << " s "
         << listed(found.inputs) << " -> " << listed(found.outputs);
@@ -285,13 +286,13 @@ void write_inputs(std::ostream& out, const model::Scene& scene, system::Regime& 
     out << "  inputs for controllers and programs: " << joined(names) << "\n";
 }
 
-/// What `hydrodae check` prints.
+/// Report of `hydrodae check`.
 std::string report(const model::Scene& scene) {
   const System built = build::build(scene);
   system::Regime s(built);
   const system::Pattern pattern = system::find_pattern(s);
   measure::Measure measure(s, 0.0, system::initial_state(s), VectorX::Zero(s.n));
-  const observe::Recorder named(s, measure); // or refuses
+  const observe::Recorder named(s, measure); // throws if names collide
   std::ostringstream out;
   out << model::summary(scene) << "  unknowns: " << s.n << " = " << s.n_q << " positions + "
       << s.n_u << " velocities + " << s.n_z << " states + " << s.n_lambda << " + " << s.n_mu

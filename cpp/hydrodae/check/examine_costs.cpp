@@ -1,4 +1,4 @@
-/// What the elements of a scene cost.
+/// Cost of the elements of a scene.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 using system::Regime;
 
-/// Of each unknown: its element, and in `elements` all of them with what they have.
+/// Element of each unknown, and in `elements` all elements with their costs.
 std::vector<int> owner_of_unknowns(const Regime& s, std::vector<ElementCost>& elements) {
   std::vector<int> owner(static_cast<std::size_t>(s.n), -1);
   const auto take = [&](Index i, Index ElementCost::* count) {
@@ -63,10 +63,11 @@ std::vector<int> owner_of_unknowns(const Regime& s, std::vector<ElementCost>& el
 std::vector<ElementCost> element_costs(const Regime& s, const system::Pattern& pattern) {
   std::vector<ElementCost> elements;
   const std::vector<int> owner = owner_of_unknowns(s, elements);
-  std::size_t joints = 0; // how many of the elements have multipliers
+  std::size_t joints = 0; // number of elements with multipliers
   while (joints < elements.size() && !elements[joints].name.starts_with("body "))
     ++joints;
-  const auto states = static_cast<int>(elements.size() - s.states.size()); // those of states follow
+  // elements of states follow
+  const auto states = static_cast<int>(elements.size() - s.states.size());
   Index between = 0;
   for (Index column = 0; column < s.n; ++column)
     for (Index k = pattern.column_start[column]; k < pattern.column_start[column + 1]; ++k) {
@@ -89,7 +90,7 @@ void write_sizes(std::ostream& out, const model::Scene& scene, const Regime& s, 
   const double samples = 1.0 + std::floor(scene.solver.end_time / scene.output.step),
                row = 8.0 * static_cast<double>(width + 1);
   const auto megabytes = [](double bytes) { return rounded_text(bytes / 1e6, 3) + " MB"; };
-  double memory = 2.0 * io::rows_per_chunk * row; // here, and in HDF5
+  double memory = 2.0 * io::rows_per_chunk * row; // buffers here and in HDF5
   if (scene.solver.accuracy != "none") {
     const accuracy::Movers movers(s);
     const double spans = static_cast<double>(accuracy::Comparison::most_spans),

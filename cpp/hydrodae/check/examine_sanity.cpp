@@ -1,4 +1,4 @@
-/// The parts of `examine` that say how the scene would be run, and what looks wrong.
+/// Parts of `examine` on the method of a run and on likely errors.
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,8 @@ namespace {
 using sanity::Finding;
 using system::System;
 
-constexpr double seen = 0.01, large = 0.15;          ///< offset at rest, of the size of the body
+/// Offset at rest, as part of the size of the body
+constexpr double seen = 0.01, large = 0.15;
 constexpr double seen_turn = 0.02, large_turn = 0.2; ///< [rad]
 constexpr Index most_coordinates = 600;              ///< the statics are dense
 
@@ -28,7 +29,7 @@ std::string rounded(double value, double digits) {
   return number_text(std::round(value * digits) / digits);
 }
 
-/// Where the scene rests in still water, against its reference pose.
+/// Findings on the rest of the scene in still water, compared with its reference pose.
 std::vector<Finding> look_at_rest(const model::Scene& scene, const System& given) {
   std::vector<Finding> out;
   const bool wet = std::any_of(scene.bodies.begin(), scene.bodies.end(),
@@ -41,7 +42,7 @@ std::vector<Finding> look_at_rest(const model::Scene& scene, const System& given
       std::any_of(scene.constraints.begin(), scene.constraints.end(),
                   [](const model::Constraint& c) { return c.as<model::DrivenCoordinate>(); });
   if (driven && std::any_of(given.couplers.begin(), given.couplers.end(), moves))
-    return out; // it never rests
+    return out; // a driven scene never rests
   if (!wet || given.n_u + system::Regime(given).n_lambda > most_coordinates)
     return out;
   System s = given;

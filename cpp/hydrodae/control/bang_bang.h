@@ -12,13 +12,13 @@ struct BangBangState {
 ///   u = upper   where e = target - input > band
 ///       lower   where e < -band
 ///
-/// and within the band what it was before; at the start upper for e >= 0.
+/// and within the band the last value; at the start upper for e >= 0.
 class BangBangLaw final : public StatefulLaw<BangBangState> {
 public:
   BangBangLaw(double target, double band, double lower, double upper)
       : target_(target), band_(band), lower_(lower), upper_(upper) {}
 
-  /// @param in  what is controlled, and where there are two its target
+  /// @param in  controlled channel, and optionally its target
   void sample(double, std::span<const double> in, std::span<double> out) override {
     const double e = (in.size() > 1 ? in[1] : target_) - in[0];
     if (!state_.began)

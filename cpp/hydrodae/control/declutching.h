@@ -11,18 +11,18 @@ struct DeclutchingState {
   double next = INFINITY;
 };
 
-/// Declutching (Babarit, Guglielmi, Clement, Ocean Engineering 36 (2009) 1015-1024): from each
-/// standstill of a joint on the machine is free for some time, then it works until the next one.
+/// Declutching (Babarit, Guglielmi, Clement, Ocean Engineering 36 (2009) 1015-1024): after each
+/// standstill of a joint the machine is free for some time, then it works until the next one.
 ///
-///   u = free        for `time` from a standstill on
-///       engaged     else
+///   u = free        for `time` after a standstill
+///       engaged     otherwise
 ///
-/// The standstill, where s' changes its sign, is an event that the kernel locates. A standstill
-/// within `rest` of the one before is not heard.
+/// The standstill, a change of sign of s', is an event that the kernel locates. A standstill within
+/// `rest` of the last one is ignored.
 class DeclutchingLaw final : public StatefulLaw<DeclutchingState> {
 public:
-  /// @param time  for which it is free [s]
-  /// @param rest  from a standstill until the next one that is heard [s]
+  /// @param time  duration of the free phase [s]
+  /// @param rest  time after a standstill during which others are ignored [s]
   DeclutchingLaw(double engaged, double free, double time, double rest)
       : engaged_(engaged), free_(free), time_(time), rest_(rest) {}
 

@@ -10,24 +10,24 @@ namespace hydrodae::control {
 struct LatchingState {
   enum class Phase { ready, held, released };
   Phase phase = Phase::ready;
-  double until = INFINITY; ///< of this phase [s]
+  double until = INFINITY; ///< end of this phase [s]
 };
 
-/// Latching (Budal, Falnes 1980): holds a joint from a standstill on for some time, then lets it
-/// go. What it writes is the largest load that the dry friction of the joint holds: the kernel
-/// locates the standstill, and the joint sticks there exactly.
+/// Latching (Budal, Falnes 1980): holds a joint from a standstill for some time, then releases it.
+/// The output is the largest load of the joint's dry friction: the kernel locates the standstill,
+/// and the joint sticks exactly there.
 ///
-///   ready:    friction holds up to `load`; where the joint sticks: held
-///   held:     for `time`, then the friction holds nothing
+///   ready:    friction holds up to `load`; once the joint sticks: held
+///   held:     for `time`, then the friction load is zero
 ///   released: for `rest`, then ready
 ///
-/// Whether it sticks is asked of the kernel, not judged by the rate: a joint that creeps may be
-/// caught by the very act of getting ready, without an event of its own.
+/// The kernel reports whether the joint sticks; the rate cannot, because a creeping joint may stick
+/// when the friction becomes ready, without an event.
 class LatchingLaw final : public StatefulLaw<LatchingState> {
 public:
-  /// @param time    for which it holds [s]
-  /// @param rest    from the release until it may hold again [s]
-  /// @param sticks  does the joint stick now?
+  /// @param time    duration of the hold [s]
+  /// @param rest    time from the release until the next hold may begin [s]
+  /// @param sticks  returns whether the joint sticks now
   LatchingLaw(double load, double time, double rest, std::function<bool()> sticks)
       : load_(load), time_(time), rest_(rest), sticks_(std::move(sticks)) {}
 

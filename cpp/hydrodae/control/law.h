@@ -1,6 +1,6 @@
 #pragma once
-/// What a sampled controller does. It sees numbers at its sampling instants only and answers with
-/// numbers that are held until the next answer; it is never called inside a residual.
+/// Law of a sampled controller. It reads values at its sampling instants only, and its outputs hold
+/// until the next ones; it is never called inside a residual.
 
 #include <cmath>
 #include <span>
@@ -12,21 +12,21 @@
 
 namespace hydrodae::control {
 
-/// One number that a controller reads or writes.
+/// Value that a controller reads or writes.
 struct Terminal {
   std::string name, unit; ///< "joints/slide/displacement_rate", "m/s" or as the case has it, "mm/s"
-  double start = 0.0;     ///< of what it writes: the value that holds before its first answer
-  std::string own_unit;   ///< of the scene: that of the channel or input
-  Conversion to_own;      ///< from `unit` to that
+  double start = 0.0;     ///< outputs: value that holds before the first answer
+  std::string own_unit;   ///< unit in the scene, of the channel or input
+  Conversion to_own;      ///< conversion from `unit` to `own_unit`
 };
 
-/// What a controller is joined to.
+/// Connections of a controller.
 struct Terminals {
   std::vector<Terminal> inputs, outputs;
-  double end_time = 0.0; ///< of the run [s]
+  double end_time = 0.0; ///< end time of the run [s]
 };
 
-/// An answer that is to end the run, as a person would (Ctrl-C): not an error.
+/// Exception that ends the run on request, like Ctrl-C: not an error.
 struct Stopped : Error {
   using Error::Error;
 };
@@ -35,43 +35,43 @@ class Law {
 public:
   virtual ~Law() = default;
 
-  /// At a sampling instant.
+  /// Samples the law at an instant.
   /// @param in   (n_inputs,) SI units
-  /// @param out  (n_outputs,) what was answered last; held from now on, or after the delay
-  /// Throws SolverError where there is no answer, Stopped where the run is to end.
+  /// @param out  (n_outputs,) last outputs; the new ones hold from now on, or after the delay
+  /// Throws SolverError if there is no output, Stopped to end the run.
   virtual void sample(double t, std::span<const double> in, std::span<double> out) = 0;
 
-  /// Is it sampled at the events of stops and dry friction, too?
+  /// Returns whether it is also sampled at the events of stops and dry friction.
   virtual bool hears_events() const { return false; }
 
-  /// Is it due at once, whatever the time, for what the run has come to since it was sampled last?
+  /// Returns whether it is due now at any time, because of events since its last sample.
   virtual bool is_due() const { return false; }
 
-  /// Is its first input the rate of a joint, whose changes of sign are events that it hears?
+  /// Returns whether its first input is the rate of a joint whose changes of sign are events for
+  /// it.
   virtual bool hears_crossings() const { return false; }
 
-  /// The first input crosses zero at t, before it is sampled there.
+  /// Notes that the first input crosses zero at t, before the sample there.
   virtual void crossed(double) {}
 
-  /// The next sampling instant that it asks for after one at `t` [s], in place of a fixed period;
-  /// no number: the period holds.
+  /// Next sampling instant after one at `t` [s], in place of a fixed period; NaN: the period holds.
   virtual double next_time(double) const { return NAN; }
 
-  /// All that an answer depends on beside its arguments, as bytes.
+  /// State that its outputs depend on besides the arguments, as bytes.
   virtual std::string state() { return ""; }
   virtual void set(const std::string&) {}
 
-  /// The run has gone to another time than that of its last step.
+  /// Called after `restore`: the time is no longer that of the last step.
   virtual void restored(double) {}
 
-  /// Which numbers it turns into other units, in words, one each; known once it was sampled.
+  /// Notes on values that it converts to other units; known after the first sample.
   virtual std::vector<std::string> unit_notes() const { return {}; }
 
-  /// The run ends: completed, or stopped by the error of this message.
+  /// Ends the run: completed, or stopped by the error of this message.
   virtual void finish(const std::string&) {}
 };
 
-/// A law whose answers depend on a plain struct.
+/// Law whose outputs depend on a plain struct.
 template <class State> class StatefulLaw : public Law {
 public:
   std::string state() override { return to_bytes(state_); }

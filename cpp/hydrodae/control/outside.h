@@ -1,6 +1,5 @@
 #pragma once
-/// Controllers whose law is made by the program that makes the run: Python functions, FMUs and
-/// other programs.
+/// Controllers whose law comes from outside: Python functions, FMUs and other programs.
 
 #include "hydrodae/control/sampled.h"
 
@@ -9,8 +8,8 @@ namespace hydrodae::control {
 struct Outside : Sampled {
   static constexpr Arity arity = {};
   using Make = std::function<std::unique_ptr<Law>(const Terminals&)>;
-  Make make;       ///< the law of one run
-  Make make_again; ///< the law of a second run of the same scene; empty if it cannot begin again
+  Make make;       ///< makes the law of one run
+  Make make_again; ///< makes the law of a second run of the same scene; empty if it cannot restart
 
   std::unique_ptr<Law> law(const Place& place) const {
     if (make)
@@ -39,7 +38,7 @@ struct Fmu : Outside {
   std::vector<std::string> fmu_inputs, fmu_outputs, parameters;
   std::vector<double> parameter_values, fmu_factors;
   std::vector<std::string> text_parameters, text_values;
-  std::string path; ///< of that file, found from the folder of the case
+  std::string path; ///< path of that file, resolved from the folder of the case
 
   std::optional<Fault> fault() const {
     const auto unequal = [](const char* key, std::size_t n, const char* other, std::size_t wanted) {

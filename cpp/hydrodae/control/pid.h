@@ -30,7 +30,7 @@ public:
 
   explicit PidLaw(const Gains& gains) : g_(gains) {}
 
-  /// @param in  what is controlled, and where there are two its target
+  /// @param in  controlled channel, and optionally its target
   void sample(double, std::span<const double> in, std::span<double> out) override {
     const double e = (in.size() > 1 ? in[1] : g_.target) - in[0],
                  width = g_.filter_time + g_.period;

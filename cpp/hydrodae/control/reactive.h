@@ -6,7 +6,7 @@
 
 namespace hydrodae::control {
 
-/// u = -K (s - s0) - C s' within +-limit.
+/// Reactive control u = -K (s - s0) - C s' within +-limit.
 class ReactiveLaw final : public Law {
 public:
   ReactiveLaw(double stiffness, double damping, double neutral, double limit)
@@ -21,7 +21,7 @@ private:
   double k_, c_, s0_, limit_;
 };
 
-/// u = -C s' within +-limit.
+/// Resistive control u = -C s' within +-limit.
 class ResistiveLaw final : public Law {
 public:
   ResistiveLaw(double damping, double limit) : c_(damping), limit_(limit) {}

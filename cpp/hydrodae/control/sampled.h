@@ -1,5 +1,5 @@
 #pragma once
-/// What every table [[controller]] has.
+/// Common members of every table [[controller]].
 
 #include <functional>
 #include <memory>
@@ -15,32 +15,33 @@
 
 namespace hydrodae::control {
 
-/// How many channels and inputs of the scene a controller names.
+/// Number of channels and inputs of the scene that a controller names.
 struct Arity {
-  std::size_t least_inputs = 0, most_inputs = 1000, outputs = 0; ///< outputs 0: one or more
+  std::size_t least_inputs = 0, most_inputs = 1000, outputs = 0; ///< outputs = 0: one or more
   const char* meaning = "channels";
 };
 
-/// Dry friction that a controller writes to, on a joint.
+/// Dry friction on a joint whose largest load a controller writes.
 struct Friction {
-  std::string rate;             ///< of the joint, as a channel: "joints/slide/displacement_rate"
-  std::function<bool()> sticks; ///< does the joint stick now?
+  /// Rate of the joint as a channel: "joints/slide/displacement_rate"
+  std::string rate;
+  std::function<bool()> sticks; ///< returns whether the joint sticks now
 };
 
-/// What a controller is joined to in a run.
+/// Connections of a controller in a run.
 struct Place {
   const Terminals& terminals;
-  std::optional<Friction> friction; ///< whose largest load its first output is
+  std::optional<Friction> friction; ///< friction whose largest load is its first output
 };
 
-/// A controller that reads channels at fixed instants k T, and holds inputs from k T + delay on
+/// Controller that reads channels at fixed instants k T, and holds inputs from k T + delay on
 /// (zero-order hold). A type of controller is a struct that derives from this one, with
 ///
 ///   type, doc, fields()               as every typed table (core/one_of.h)
-///   static constexpr Arity arity      what it reads and writes
+///   static constexpr Arity arity      number of its inputs and outputs
 ///   law(Place)                        its law for one run; throws ModelError
-///   fault()                           optional: what is wrong with its values
-///   fault(Terminals)                  optional: or with the units that it reads and writes
+///   fault()                           optional: fault in its values
+///   fault(Terminals)                  optional: fault in the units of its terminals
 ///
 /// and one entry in the list of model/controller.h.
 struct Sampled {
@@ -53,7 +54,7 @@ struct Sampled {
 
 enum class Inputs { optional, required };
 
-/// Name, inputs, outputs and period.
+/// Fields for name, inputs, outputs and period.
 template <class C> Fields<C> sampled_fields(Inputs inputs = Inputs::required) {
   return {
       {"name", &C::name, "-", "Name of the controller in the results.", true},
@@ -84,12 +85,12 @@ template <class C> Fields<C> lag_field() {
            false, at_least(0, longest_time)}};
 }
 
-/// All of them.
+/// Fields of all these, with delay and lag.
 template <class C> Fields<C> usual_fields(Inputs inputs = Inputs::required) {
   return sampled_fields<C>(inputs) + delay_field<C>() + lag_field<C>();
 }
 
-/// Are numbers in one unit the same in the other?
+/// Returns whether two units are equal.
 inline bool same_unit(const std::string& a, const std::string& b) {
   const std::optional<Unit> one = unit_of(a), other = unit_of(b);
   if (!one || !other)
@@ -102,7 +103,7 @@ inline std::string with_unit(const Terminal& t) {
   return in_quotes(t.name) + " is in " + in_quotes(t.unit);
 }
 
-/// A second input is the target of the first one: both in one unit.
+/// Checks that a second input, the target of the first one, has the same unit.
 inline std::optional<Fault> target_fault(const Terminals& t) {
   if (t.inputs.size() == 2 && !same_unit(t.inputs[0].unit, t.inputs[1].unit))
     return Fault{"inputs", with_unit(t.inputs[1]) + ", and cannot be the target of " +
@@ -111,7 +112,7 @@ inline std::optional<Fault> target_fault(const Terminals& t) {
   return {};
 }
 
-/// A law whose keys are in SI units reads and writes in these.
+/// Checks that a law with keys in SI units has terminals in these.
 inline std::optional<Fault> si_fault(const Terminals& t, const std::string& type) {
   for (const auto* terminals : {&t.inputs, &t.outputs})
     for (const Terminal& one : *terminals)
@@ -122,7 +123,7 @@ inline std::optional<Fault> si_fault(const Terminals& t, const std::string& type
   return {};
 }
 
-/// The last input is a rate and the output the load that goes with it.
+/// Checks that the last input is a rate and the output the corresponding load.
 inline std::optional<Fault> rate_fault(const Terminals& t, const std::string& type) {
   if (const std::optional<Fault> fault = si_fault(t, type))
     return fault;
@@ -136,7 +137,7 @@ inline std::optional<Fault> rate_fault(const Terminals& t, const std::string& ty
   return {};
 }
 
-/// What reads a quantity that it holds at its target.
+/// Arity of a law that holds its input at a target.
 inline constexpr Arity of_target = {
     1, 2, 1, "what it holds at its target, then its target where that is a channel"};
 

@@ -6,10 +6,10 @@
 
 namespace hydrodae::control {
 
-/// Straight lines between points; beyond the ends the values there.
+/// Table with linear interpolation; constant beyond the ends.
 class TableLaw final : public Law {
 public:
-  /// @param at  ascending, two or more
+  /// @param at  two or more ascending values
   TableLaw(std::vector<double> at, std::vector<double> value)
       : at_(std::move(at)), value_(std::move(value)) {}
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Values as bytes, and back. A State is a plain struct without base classes or constructors: its
-/// members are found here, so that nothing has to list them twice.
+/// Conversion of values to bytes and back. A State is a plain struct without base classes or
+/// constructors: its members are found here, without a list of them.
 
 #include <concepts>
 #include <cstddef>
@@ -21,8 +21,8 @@
 
 namespace hydrodae {
 
-/// Calls `visit` with all members of a plain struct at once, in their order: at most 16. A struct
-/// has so many members as it takes initialisers.
+/// Calls `visit` with all members of a plain struct at once, in their order: at most 16. The number
+/// of members is the number of accepted initialisers.
 template <class Struct, class Visit>
   requires std::is_aggregate_v<std::remove_const_t<Struct>>
 void visit_members(Struct& value, Visit&& visit) {
@@ -82,8 +82,8 @@ void visit_members(Struct& value, Visit&& visit) {
   // clang-format on
 }
 
-/// Copies values to the end of a text of bytes, or from it, in the same order; of this kind of
-/// machine. Throws Error where the bytes to read from are too few or too many.
+/// Archive that appends values to a string of bytes, or reads them in the same order; for this kind
+/// of machine. Throws Error if there are too few or too many bytes.
 class Archive {
 public:
   explicit Archive(std::string& out) : out_(&out) {}   ///< writes
@@ -98,7 +98,7 @@ public:
       take(value);
   }
 
-  /// To be called after the last value that is read.
+  /// Checks that no bytes are left; call it after the last value that is read.
   void finish() const {
     if (!left_.empty())
       misfit();
@@ -189,15 +189,15 @@ private:
   std::string_view left_;
 };
 
-/// A value as bytes.
+/// Value as bytes.
 template <class T> std::string to_bytes(const T& value) {
   std::string out;
   Archive archive(out);
-  archive(const_cast<T&>(value)); // which it only reads
+  archive(const_cast<T&>(value)); // only reads
   return out;
 }
 
-/// The value that these bytes are. Throws Error; see Archive.
+/// Value from bytes. Throws Error; see Archive.
 template <class T> T from_bytes(std::string_view bytes) {
   T out;
   Archive archive(bytes);

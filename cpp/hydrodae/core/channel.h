@@ -1,5 +1,5 @@
 #pragma once
-/// A named, documented column (or three, or four) of the results.
+/// Named, documented columns of the results: one, three or four.
 
 #include <string>
 #include <utility>
@@ -15,7 +15,7 @@ struct Channel {
   std::string unit;        ///< "m/s", "rad", "-", ...
   std::string frame;       ///< "world", "marker A of hinge1", "-"
   std::string description; ///< one sentence
-  std::vector<std::pair<std::string, Vector3>> vectors = {}; ///< more about the frame, by name
+  std::vector<std::pair<std::string, Vector3>> vectors = {}; ///< further data on the frame, by name
 };
 
 } // namespace hydrodae

@@ -1,5 +1,5 @@
 #pragma once
-/// The three ways in which a run ends on purpose, and the exit code of each.
+/// Errors that end a run on purpose, with their exit codes.
 
 #include <stdexcept>
 #include <string>
@@ -9,32 +9,32 @@
 
 namespace hydrodae {
 
-/// Base of every error that hydrodae raises on purpose. Failed `assert`s are bugs of ours.
+/// Base of every error that hydrodae raises on purpose. Failed `assert`s are bugs of hydrodae.
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Where something stands in a file that a person wrote.
+/// Place in a file that a person wrote.
 struct FilePlace {
-  std::string file;         ///< or what else gives a key: "--set solver.rtol"
-  int line = 0, column = 0; ///< from 1; 0: unknown
+  std::string file;         ///< file, or other source of a key: "--set solver.rtol"
+  int line = 0, column = 0; ///< line and column, from 1; 0: unknown
 };
 
-/// "case.toml:12:3", as far as it is known.
+/// Text "case.toml:12:3", as far as known.
 std::string text_of(const FilePlace& place);
 
-/// The case file or the database cannot be used as it is written. The message is `fault` with the
-/// place in front. Exit code 2.
+/// Error in the case file or the database as written. The message is `fault` with the place in
+/// front. Exit code 2.
 struct CaseError : Error {
   explicit CaseError(const std::string& message) : Error(message), fault(message) {}
   CaseError(FilePlace at, std::string key_path, const std::string& what_is_wrong);
 
   FilePlace place;
   std::string key;   ///< path of the entry or key, such as "joint.hinge1.body_a"; "" without one
-  std::string fault; ///< what was found, what was expected, and the nearest valid name
+  std::string fault; ///< fault found, values expected, and the nearest valid name
 };
 
-/// The scene contradicts itself or the physics. `key` is the path of the offending entry, such as
+/// Contradiction in the scene or to physics. `key` is the path of the faulty entry, such as
 /// "joint.hinge1.body_a"; the case reader turns it into a CaseError with the place. Exit code 2.
 struct ModelError : Error {
   ModelError(std::string key_path, const std::string& message)
@@ -42,7 +42,7 @@ struct ModelError : Error {
   std::string key;
 };
 
-/// Why an integration stopped. Python has their names (`name_of`) as `SolverError.reason`.
+/// Reason why an integration stopped. Python has their names (`name_of`) as `SolverError.reason`.
 enum class Reason {
   start,      ///< no motion agrees with the equations at the start
   step,       ///< the step has become too short: Newton's iteration or the error test fail
@@ -63,21 +63,21 @@ enum class Reason {
 };
 std::string_view name_of(Reason reason);
 
-/// What a SolverError says, apart. Its message is made of these by `message_of`.
+/// Parts of a SolverError; `message_of` composes its message from them.
 struct Halt {
   Reason reason = Reason::solver;
-  std::string what = {};    ///< what happened: "the Jacobian is singular"
+  std::string what = {};    ///< event: "the Jacobian is singular"
   std::string subject = {}; ///< "bodies/float", or an unknown or a row; "" for the scene
-  std::vector<std::pair<std::string, double>> numbers = {}; ///< measured, by name (SI units)
-  std::string advice = {};                                  ///< what may help
+  std::vector<std::pair<std::string, double>> numbers = {}; ///< measured values by name (SI units)
+  std::string advice = {};                                  ///< advice that may help
   /// Further lines, each with "\n" in front.
   std::string details = {};
 };
 
-/// "stopped at t = 1.2 s: what; advice", then the details.
+/// Message "stopped at t = 1.2 s: what; advice", then the details.
 std::string message_of(double time, const Halt& halt);
 
-/// The integration stopped before its end. Results up to `time` are kept. Exit code 3.
+/// Error that stops the integration before its end. Results up to `time` are kept. Exit code 3.
 struct SolverError : Error {
   SolverError(double at_time, Halt why);
   double time; ///< [s]

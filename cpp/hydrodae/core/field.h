@@ -13,8 +13,8 @@
 
 namespace hydrodae {
 
-/// Closed interval of allowed values (in the unit of the file); `open_min` excludes `min` itself. A
-/// `far_max` is far from all sense, and named only where a value exceeds it.
+/// Closed interval of allowed values (in the unit of the file); `open_min` excludes `min` itself.
+/// `far_max` is beyond all sensible values, and appears only in messages on values above it.
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
@@ -28,15 +28,15 @@ constexpr Range at_least(double x, double far) { return {x, far, false, true}; }
 constexpr Range more_than(double x, double far) { return {x, far, true, true}; }
 constexpr Range between(double a, double b) { return {a, b, false}; }
 
-/// Longest time and most distant moment that a case may name [s]: three centuries.
+/// Largest time that a case may contain [s]: three centuries.
 inline constexpr double longest_time = 1e10;
 
-/// No restriction of the words of a string. (A named constant: g++ 12 crashes on `= {}` below.)
+/// Choices that do not restrict a word. (A named constant: g++ 12 crashes on `= {}` below.)
 inline const std::vector<std::string_view> any_word;
 
-/// A value, or a word that says what to take it from: "equilibrium" for a mass.
+/// Value, or a word for its source: "equilibrium" for a mass.
 template <class V> struct ValueOrWord {
-  V value;          ///< as given, or as it follows from the word
+  V value;          ///< value as given, or as derived from the word
   std::string word; ///< "" for a value
 
   ValueOrWord& operator=(const V& given) {
@@ -46,8 +46,9 @@ template <class V> struct ValueOrWord {
   }
 };
 
-/// A member of `T` of one of the types that a case file can hold. A `std::vector<std::string>` also
-/// accepts one bare string; a `Matrix6` also accepts six numbers (its diagonal).
+/// Pointer to a member of `T`, of one of the types that a case file can hold. A
+/// `std::vector<std::string>` also accepts one bare string; a `Matrix6` also accepts six numbers
+/// (its diagonal).
 template <class T>
 using Member =
     std::variant<double T::*, bool T::*, int T::*, std::string T::*, std::vector<std::string> T::*,
@@ -56,18 +57,18 @@ using Member =
                  std::optional<std::string> T::*, ValueOrWord<double> T::*,
                  ValueOrWord<Vector3> T::*>;
 
-/// One key of a case table.
+/// Key of a case table.
 template <class T> struct Field {
   std::string_view key;  ///< name in the file; a key that ends in `_deg` is stored in radians
-  Member<T> member;      ///< where the value goes
-  std::string_view unit; ///< unit in the file, "-" for none; "deg" is converted to radians
+  Member<T> member;      ///< member for the value
+  std::string_view unit; ///< unit in the file, "-" for no unit; "deg" is converted to radians
   std::string_view doc;  ///< one sentence of meaning
   bool required = false;
   Range range = any_value; ///< applies to every number of the value, in the unit of the file
   std::vector<std::string_view> choices = any_word; ///< allowed words; empty: any
 };
 
-/// What is wrong with the values of an entry taken together.
+/// Fault in the combination of values of an entry.
 struct Fault {
   std::string key, message;
 };

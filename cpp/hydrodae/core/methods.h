@@ -1,6 +1,6 @@
 #pragma once
-/// The integrators, one row each: what solver.method may name, and all that the rest of the program
-/// has to know of a method. (integrate/integrator.cpp makes them.)
+/// Integrators, one row each: names for solver.method, and properties of each method.
+/// (integrate/integrator.cpp makes them.)
 
 #include <string>
 #include <string_view>
@@ -10,18 +10,18 @@ namespace hydrodae {
 
 struct MethodTraits {
   std::string_view name;
-  std::vector<int> orders;        ///< that solver.order may name; empty: no choice
-  std::string_view one_order;     ///< why there is no choice, for messages
-  bool adapts = true;             ///< may it choose its steps by rtol?
-  bool fixes = true;              ///< may it take fixed steps?
-  bool drifting = false;          ///< does it take formulations that let the constraints drift?
-  std::string_view fails_index_3; ///< why it fails on index 3; empty: it does not
-  bool limits_order = false;      ///< does solver.max_order limit it?
-  bool takes_radius = false;      ///< does solver.spectral_radius act on it?
-  /// Is the polynomial inside its adaptive steps of a lower order than their ends? Then steps are
+  std::vector<int> orders;        ///< choices of solver.order; empty: no choice
+  std::string_view one_order;     ///< reason why there is no choice, for messages
+  bool adapts = true;             ///< true: chooses its steps by rtol
+  bool fixes = true;              ///< true: takes fixed steps
+  bool drifting = false;          ///< true: takes formulations with drifting constraints
+  std::string_view fails_index_3; ///< reason why it fails on index 3; empty: it does not
+  bool limits_order = false;      ///< true: solver.max_order limits it
+  bool takes_radius = false;      ///< true: solver.spectral_radius acts on it
+  /// True: the polynomial inside adaptive steps is of lower order than their ends. Steps are then
   /// repeated up to an event instead of being cut there.
   bool coarse_inside = false;
-  /// Has it so many short steps that a pose on the way is met several times (multistep methods)?
+  /// True: it makes so many short steps that it meets a pose several times (multistep methods).
   bool many_steps = false;
   bool passes_singular_poses = false; ///< of closed loops, by measurement (tests/stability)
   bool projects_rates = false;        ///< do its steps meet the rows of the rates exactly?
@@ -29,19 +29,19 @@ struct MethodTraits {
   bool marches_lanes = false;         ///< can it march several runs side by side (ensemble/)?
 };
 
-/// All methods, those that choose their steps first, by how far the stability map trusts them.
+/// Methods, adaptive ones first, in the order of reliability in the stability map.
 const std::vector<MethodTraits>& methods();
 
-/// Of a method by name; null where the scene chooses it ("auto").
+/// Traits of a method by name; null for "auto".
 const MethodTraits* find_method(std::string_view name);
 
-/// Of a method by name; "auto" is not one.
+/// Traits of a method by name; "auto" is not one.
 const MethodTraits& method_traits(std::string_view name);
 
-/// "auto" and the names of all.
+/// Names of "auto" and of all methods.
 std::vector<std::string_view> method_names();
 
-/// Those that choose their steps.
+/// Names of the adaptive methods.
 std::vector<std::string> adaptive_methods();
 
 } // namespace hydrodae

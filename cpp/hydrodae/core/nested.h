@@ -1,5 +1,5 @@
 #pragma once
-/// What a struct of fields says of itself beside `fields()`, read off its members.
+/// Properties of a struct of fields besides `fields()`, from its members.
 
 #include <concepts>
 #include <string_view>
@@ -7,11 +7,12 @@
 
 namespace hydrodae {
 
-/// Entries of a list that is read by its `type` name it as a constant; the key itself is no field.
+/// Struct of a list that is read by `type`: it names its type as a constant, and the key is no
+/// field.
 template <class T>
 concept NamedType = std::same_as<decltype(&T::type), const std::string_view*>;
 
-/// One sentence of meaning, "" if absent.
+/// Sentence of meaning; "" if absent.
 template <class T> constexpr std::string_view doc_of() {
   if constexpr (requires { T::doc; })
     return T::doc;

@@ -1,5 +1,5 @@
 #pragma once
-/// Entries of a list whose key `type` says which of several structs each of them is.
+/// Entries of a list whose key `type` selects one of several structs.
 
 #include <algorithm>
 #include <concepts>
@@ -15,8 +15,8 @@
 
 namespace hydrodae {
 
-/// One of `Types`. Each derives from `Shared`, names its `type` and `doc` as constants, and
-/// declares its keys by `fields()`.
+/// Value of one of `Types`. Each type derives from `Shared`, names its `type` and `doc` as
+/// constants, and declares its keys by `fields()`.
 template <class Shared, class... Types> class OneOf {
 public:
   OneOf() = default;
@@ -36,7 +36,7 @@ public:
                       value_);
   }
 
-  /// The entry as a `T` (one of the types, or a base of some), or null if it is no `T`.
+  /// Entry as a `T` (one of the types, or a base of some), or null if it is no `T`.
   template <class T> const T* as() const {
     return std::visit(
         [](const auto& value) -> const T* {
@@ -49,7 +49,7 @@ public:
   }
   template <class T> T* as() { return const_cast<T*>(std::as_const(*this).template as<T>()); }
 
-  /// Calls `f` with the struct that it is.
+  /// Calls `f` with the struct of the entry.
   template <class F> decltype(auto) visit(F&& f) const {
     return std::visit(std::forward<F>(f), value_);
   }
@@ -67,7 +67,7 @@ private:
 template <class T> inline constexpr bool is_one_of = false;
 template <class S, class... T> inline constexpr bool is_one_of<OneOf<S, T...>> = true;
 
-/// The name of an entry, of whichever kind it is.
+/// Name of an entry of any kind.
 template <class T> const std::string& name_of_entry(const T& entry) {
   if constexpr (is_one_of<T>)
     return entry->name;
@@ -75,7 +75,7 @@ template <class T> const std::string& name_of_entry(const T& entry) {
     return entry.name;
 }
 
-/// Keys that several types share, then those of one.
+/// Concatenates keys shared by several types with those of one.
 template <class T> Fields<T> operator+(Fields<T> shared, const Fields<T>& own) {
   shared.insert(shared.end(), own.begin(), own.end());
   return shared;

@@ -1,5 +1,5 @@
 #pragma once
-/// Table [solver] of a case: which method integrates the scene, and how exactly.
+/// Table [solver] of a case: method and accuracy of the integration.
 
 #include <optional>
 #include <string>

@@ -15,7 +15,8 @@ std::string lower(std::string_view text) {
   return out;
 }
 
-/// Edits (insert, delete, replace, swap neighbours) that turn a into b; optimal string alignment.
+/// Number of edits (insert, delete, replace, swap neighbours) that turn a into b; optimal string
+/// alignment.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   const std::size_t n = b.size() + 1;
   std::vector<std::size_t> before(n), last(n), row(n);
@@ -39,7 +40,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string number_text(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value + 0.0); // no "-0"
+  std::snprintf(text, sizeof text, "%.9g", value + 0.0); // avoids "-0"
   return text;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Words for messages.
+/// Text for messages.
 
 #include <string>
 #include <string_view>
@@ -14,7 +14,7 @@ inline std::string in_quotes(std::string_view text) {
   return out;
 }
 
-/// "a, b, c", or with another separator
+/// Joined items "a, b, c", or with another separator.
 template <class Range> std::string joined(const Range& items, std::string_view separator = ", ") {
   std::string text;
   for (const auto& item : items) {
@@ -25,16 +25,16 @@ template <class Range> std::string joined(const Range& items, std::string_view s
   return text;
 }
 
-/// Shortest decimal form of a number that is enough for a message: 9.81, 1e-06.
+/// Short decimal form of a number for messages: 9.81, 1e-06.
 std::string number_text(double value);
 
-/// The same to so many digits; two for what is an estimate.
+/// Number with the given digits; two for estimates.
 std::string rounded_text(double value, int digits = 2);
 
-/// The name in `names` nearest to `wanted` by edit distance, or "" if none is near.
+/// Name in `names` nearest to `wanted` by edit distance, or "" if none is near.
 std::string nearest_name(std::string_view wanted, const std::vector<std::string>& names);
 
-/// "; did you mean 'x'? (valid: ...)", or "; there is none" without names.
+/// Text "; did you mean 'x'? (valid: ...)", or "; there is none" without names.
 std::string suggestion(std::string_view wanted, const std::vector<std::string>& names);
 
 } // namespace hydrodae

@@ -8,7 +8,7 @@
 
 namespace hydrodae {
 
-using Index = std::int64_t; ///< the index type of SUNDIALS and of the long version of KLU
+using Index = std::int64_t; ///< index type of SUNDIALS and of the long version of KLU
 
 template <class S> using Vec3 = Eigen::Matrix<S, 3, 1>;
 template <class S> using Vec4 = Eigen::Matrix<S, 4, 1>;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double radians_of_degree = std::numbers::pi / 180.0;
 
-/// Powers of kg, m, s, ... and the factor to SI.
+/// Units with the powers of kg, m, s, ... and the factor to SI.
 const std::map<std::string, Unit>& known_units() {
   static const std::map<std::string, Unit> units = {
       {"1", {}},
@@ -43,7 +43,7 @@ const std::map<std::string, Unit>& known_units() {
   return units;
 }
 
-/// Of "mm", "kN", "MW", "mbar"; g only here, as kg is the base unit.
+/// Unit of a symbol such as "mm", "kN", "MW", "mbar"; g only here, because kg is the base unit.
 std::optional<Unit> symbol_of(const std::string& symbol) {
   const auto& units = known_units();
   if (const auto found = units.find(symbol); found != units.end())
@@ -62,8 +62,8 @@ std::optional<Unit> symbol_of(const std::string& symbol) {
   return out;
 }
 
-/// Reads products with powers, "kN m2", "N*m", "kg.m2.s-2", and at most one slash: all behind it is
-/// below, in parentheses or not.
+/// Parser of products with powers, "kN m2", "N*m", "kg.m2.s-2", and at most one slash: everything
+/// after it is in the denominator, with or without parentheses.
 class UnitText {
 public:
   explicit UnitText(const std::string& text) : text_(text) {}
@@ -89,7 +89,7 @@ private:
     return true;
   }
 
-  /// @param sign  1 above a slash, -1 below
+  /// @param sign  1 before a slash, -1 after it
   bool product(Unit& out, int sign) {
     bool divided = false;
     for (bool first = true; !ends(); first = false) {
@@ -126,7 +126,7 @@ private:
     return true;
   }
 
-  /// One digit behind a symbol, "m3", "s-1", "m^2"; 0 for anything else.
+  /// Power of one digit after a symbol, "m3", "s-1", "m^2"; 0 for anything else.
   int power() {
     const bool told = take('^'), minus = take('-');
     if (at_ >= text_.size() || !std::isdigit(static_cast<unsigned char>(text_[at_])))

@@ -19,12 +19,13 @@ namespace {
                    "controller " + in_quotes(c.name) + ": " + why);
 }
 
-/// What a case names of an FMU.
+/// Variables of an FMU that a case uses.
 struct Mapping {
   FmuDescription fmu;
   FmuGroups inputs, outputs, parameters;
   std::vector<unsigned> text_parameters;
-  std::vector<Conversion> of_inputs, of_outputs; ///< from its units to those of the terminals
+  /// Conversions from its units to those of the terminals
+  std::vector<Conversion> of_inputs, of_outputs;
   std::vector<std::string> unit_notes;
 
   /// @param terminals  what its inputs and outputs are joined to; null: not known yet
@@ -66,7 +67,7 @@ struct Mapping {
     }
   }
 
-  /// That its numbers are turned into others, or that nobody knows what its unit is.
+  /// Notes that values are converted to other units, or that the meaning of a unit is unknown.
   void tell(const control::Fmu& c, const FmuVariable& v, const control::Terminal& to,
             const Conversion& by) {
     const std::string head = "controller " + in_quotes(c.name) + ": variable " + in_quotes(v.name) +
@@ -78,7 +79,7 @@ struct Mapping {
       unit_notes.push_back(head + "which it does not explain: taken for " + in_quotes(to.unit));
   }
 
-  /// To the group of its type, as number k of the row.
+  /// Adds a variable to the group of its type, as number k of the row.
   static void add(const FmuVariable& v, std::size_t k, FmuGroups& out) {
     const auto own =
         std::find_if(out.begin(), out.end(), [&](const auto& g) { return g.type == v.kind; });
@@ -179,7 +180,7 @@ private:
   struct State {
     bool begun = false;
     double t = 0.0;  ///< [s]
-    std::string own; ///< of the FMU, as it serialises it
+    std::string own; ///< state of the FMU, as it serialises it
   };
 
   void set_parameters() {
@@ -189,16 +190,17 @@ private:
   }
 
   std::string name_;
-  std::vector<double> values_, factors_; ///< of the parameters; of the outputs, or none
+  /// Values of the parameters; factors of the outputs, if any
+  std::vector<double> values_, factors_;
   std::vector<std::string> texts_;
-  std::vector<double> in_; ///< in the units of the FMU
+  std::vector<double> in_; ///< inputs in the units of the FMU
   double end_time_;        ///< [s]
   Mapping map_;
   std::optional<UnpackedFmu> files_;
   std::optional<FmuLibrary> library_;
   std::unique_ptr<FmuSlave> slave_; ///< goes before its library, and that before its file
   bool begun_ = false;
-  double t_ = 0.0; ///< of the FMU [s]
+  double t_ = 0.0; ///< time of the FMU [s]
 };
 
 } // namespace

@@ -11,7 +11,7 @@ namespace hydrodae::cosim {
 /// first sampling instant on ends the run with one SolverError.
 void join_fmus(model::Scene& scene);
 
-/// The same mistakes, without loading any library. Throws ModelError.
+/// Checks an FMU as `join_fmus` does, without loading any library. Throws ModelError.
 /// @param terminals  what its inputs and outputs are joined to
 /// @returns which of its variables are in other units than these, in words
 std::vector<std::string> check_fmu(const control::Fmu& controller,

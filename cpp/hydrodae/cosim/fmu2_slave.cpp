@@ -26,7 +26,7 @@ struct Fmi2 {
       (*reset)(fmi2Component);
   fmi2Status (*step)(fmi2Component, fmi2Real, fmi2Real, fmi2Boolean);
   fmi2Status (*boolean_status)(fmi2Component, fmi2StatusKind, fmi2Boolean*);
-  // Where states can be saved:
+  // Functions of FMUs that can save states:
   fmi2Status (*get_state)(fmi2Component, fmi2FMUstate*), (*set_state)(fmi2Component, fmi2FMUstate),
       (*free_state)(fmi2Component, fmi2FMUstate*);
   fmi2Status (*size)(fmi2Component, fmi2FMUstate, std::size_t*);

@@ -25,7 +25,7 @@ struct Fmi3 {
   fmi3Status (*leave)(fmi3Instance), (*terminate)(fmi3Instance), (*reset)(fmi3Instance);
   fmi3Status (*step)(fmi3Instance, fmi3Float64, fmi3Float64, fmi3Boolean, fmi3Boolean*,
                      fmi3Boolean*, fmi3Boolean*, fmi3Float64*);
-  // Where states can be saved:
+  // Functions of FMUs that can save states:
   fmi3Status (*get_state)(fmi3Instance, fmi3FMUState*), (*set_state)(fmi3Instance, fmi3FMUState),
       (*free_state)(fmi3Instance, fmi3FMUState*);
   fmi3Status (*size)(fmi3Instance, fmi3FMUState, std::size_t*);
@@ -144,7 +144,7 @@ private:
     return out;
   }
 
-  /// Does `work` with the name of a type in functions and a number of it.
+  /// Calls `work` with the name of a type in functions and a number of it.
   template <class Work> static void of_type(FmuType type, Work&& work) {
     switch (type) {
     case FmuType::float32:

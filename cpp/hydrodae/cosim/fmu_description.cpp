@@ -20,14 +20,15 @@ namespace {
 #if defined(__aarch64__)
 constexpr const char* platforms[] = {"linux-aarch64", "aarch64-linux"};
 #else
-constexpr const char* platforms[] = {"linux64", "x86_64-linux"}; ///< of FMI 2 and 3
+/// Platform folders of FMI 2 and 3
+constexpr const char* platforms[] = {"linux64", "x86_64-linux"};
 #endif
 
 [[noreturn]] void refuse_fmu(const std::string& path, const std::string& why) {
   throw CaseError(path + ": " + why);
 }
 
-/// What an FMU says of units: their meanings, and those of its types by their names.
+/// Units of an FMU: their definitions, and those of its types by their names.
 struct Units {
   std::map<std::string, Unit> meanings;
   std::map<std::string, std::string> of_types;

@@ -1,5 +1,5 @@
 #pragma once
-/// What an FMU says of itself.
+/// Model description of an FMU.
 
 #include <optional>
 #include <string>
@@ -16,21 +16,21 @@ struct FmuVariable {
   std::optional<unsigned> reference;
   bool is_array = false;
   std::string unit_name;    ///< "bar"; empty if not declared
-  std::optional<Unit> unit; ///< where the FMU says what that is
+  std::optional<Unit> unit; ///< unit, if the FMU defines it
 
-  /// From its unit to that of a signal; empty where it declares no unit, or an unknown one.
+  /// Conversion from its unit to that of a signal; empty if it declares no unit, or an unknown one.
   /// Throws CaseError where they are units of different things.
   Conversion to(const std::string& unit_of_signal, const std::string& name_of_signal) const;
 };
 
 struct FmuDescription {
-  std::string path; ///< of the FMU
-  int version = 0;  ///< of FMI: 2 or 3
+  std::string path; ///< path of the FMU
+  int version = 0;  ///< version of FMI: 2 or 3
   std::string identifier, token;
-  bool saves_states = false; ///< can states be got, set and serialised?
+  bool saves_states = false; ///< true: states can be got, set and serialised
   std::vector<FmuVariable> variables;
 
-  /// Where the shared library for this machine stands: "binaries/linux64/".
+  /// Folder of the shared library for this machine: "binaries/linux64/".
   std::string binaries() const;
   std::string library() const { return binaries() + identifier + ".so"; }
 

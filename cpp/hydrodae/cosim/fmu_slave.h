@@ -1,5 +1,5 @@
 #pragma once
-/// One instance of an FMU for co-simulation, whichever version of FMI it has.
+/// Instance of an FMU for co-simulation, independent of the version of FMI.
 
 #include <functional>
 #include <memory>
@@ -30,14 +30,14 @@ public:
   virtual void set_text(unsigned reference, const std::string& value) = 0;
 
   /// Initialisation mode from here on, and its end.
-  /// @param t, end  of the run [s]
+  /// @param t, end  start and end of the run [s]
   virtual void begin(double t, double end) = 0;
   virtual void enter() = 0;
 
   /// @returns whether the FMU wants the run to end
   virtual bool step(double t, double h) = 0;
 
-  /// Behind `enter`.
+  /// Terminates the run; call it after `enter`.
   virtual void terminate() = 0;
   virtual void reset() = 0;
   virtual std::vector<char> save() = 0;
@@ -67,10 +67,10 @@ private:
   void* handle_;
 };
 
-/// The last thing that an FMU has logged, and what a status means.
+/// Last message that an FMU has logged, and checks of statuses.
 struct FmuLog {
   std::string text;
-  bool fatal = false; ///< no function may be called any more
+  bool fatal = false; ///< true: no function may be called any more
 
   /// @param status  0 OK, 1 Warning, 2 Discard, 3 Error, 4 Fatal, in both versions
   void require(int status, const char* function);

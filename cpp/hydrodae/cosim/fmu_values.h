@@ -26,11 +26,11 @@ enum class FmuType {
   other ///< binaries, clocks
 };
 
-/// Of "Real" or "Float64", as modelDescription.xml has it; enumerations are integers.
+/// Type of "Real" or "Float64", as in modelDescription.xml; enumerations are integers.
 /// @param version  of FMI: 2 or 3
 FmuType fmu_type(int version, const std::string& name);
 
-/// Variables of one type, and where each stands in a row of numbers.
+/// Variables of one type, with their indices in a row of numbers.
 struct FmuGroup {
   FmuType type;
   std::vector<unsigned> references;

@@ -10,7 +10,7 @@ std::string foreign_text(const std::string& text, std::size_t longest = 4096);
 /// A path as a part of a URI (RFC 3986): all but letters, digits and -._~/ by their codes.
 std::string uri_text(const std::string& path);
 
-/// What is no UTF-8 becomes '?', the rest stays as it is.
+/// Text in which bytes that are no UTF-8 become '?'.
 std::string valid_utf8(std::string text);
 
 } // namespace hydrodae::cosim

@@ -1,5 +1,5 @@
 #pragma once
-/// As much of JSON as a handshake takes.
+/// Subset of JSON that a handshake needs.
 
 #include <map>
 #include <string>

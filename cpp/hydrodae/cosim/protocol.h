@@ -12,7 +12,7 @@
 
 namespace hydrodae::cosim {
 
-/// Who speaks: as the handshake states it.
+/// Speaker, as the handshake states it.
 struct Subject {
   std::string title, controller;
   double period = 0.0, delay = 0.0; ///< [s]

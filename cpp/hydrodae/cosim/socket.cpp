@@ -67,7 +67,7 @@ void prepare(int descriptor) {
   fcntl(descriptor, F_SETFD, FD_CLOEXEC);
 }
 
-/// Does it wait by itself? To connect and to accept it must not.
+/// Sets whether calls block; they must not while connecting and accepting.
 void set_waiting(int descriptor, bool waits) {
   const int flags = fcntl(descriptor, F_GETFL);
   fcntl(descriptor, F_SETFL, waits ? flags & ~O_NONBLOCK : flags | O_NONBLOCK);

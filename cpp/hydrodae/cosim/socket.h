@@ -33,11 +33,11 @@ public:
   void send(const void* bytes, std::size_t count, double timeout);
   void receive(void* bytes, std::size_t count, double timeout);
 
-  /// Have bytes come with those received last that nobody has asked for? Asks nothing of the
-  /// operating system.
+  /// Returns whether the last call received unrequested bytes; without a call to the operating
+  /// system.
   bool has_more() const { return begin_ < end_; }
 
-  /// Have bytes come at all that nobody has asked for?
+  /// Returns whether any unrequested bytes have arrived.
   bool has_unasked() const;
 
 private:
@@ -47,9 +47,9 @@ private:
   [[noreturn]] void fail_silent(const char* what, double timeout);
 
   int descriptor_ = -1;
-  std::vector<char> buffer_;        ///< what one call has brought
-  std::size_t begin_ = 0, end_ = 0; ///< of what is left of it
-  double limit_ = 0.0;              ///< that a call waits at most [s]; 0: none is set
+  std::vector<char> buffer_;        ///< bytes received by one call
+  std::size_t begin_ = 0, end_ = 0; ///< range of the bytes that are left
+  double limit_ = 0.0;              ///< longest wait of a call [s]; 0: not set
 };
 
 /// A port that is listened at, for one connection at a time.
@@ -61,7 +61,7 @@ public:
   Listener& operator=(const Listener&) = delete;
   ~Listener();
 
-  /// The next connection, within `timeout` [s].
+  /// Accepts the next connection, within `timeout` [s].
   Socket accept(double timeout);
 
 private:

@@ -70,7 +70,7 @@ public:
   }
 
 private:
-  /// Whether the other program hears it or not.
+  /// Sends the last frame, whether the other program receives it or not.
   void leave(const std::string& error) {
     if (!socket_.open())
       return;
@@ -93,7 +93,7 @@ private:
     of_outputs_ = conversions("output", units.outputs, terminals_.outputs);
   }
 
-  /// From the units that the other program sends, "deg, deg/s", to those of the terminals.
+  /// Conversions from the units of the other program, "deg, deg/s", to those of the terminals.
   std::vector<Conversion> conversions(const std::string& what, const std::string& told,
                                       const std::vector<control::Terminal>& terminals) {
     std::vector<Conversion> out(terminals.size());
@@ -130,15 +130,16 @@ private:
   control::Terminals terminals_;
   std::string host_;
   int port_;
-  bool serves_;                      ///< it listens; else it connects
+  bool serves_;                      ///< true: listens; false: connects
   double timeout_, connect_timeout_; ///< [s]
   std::unique_ptr<Protocol> protocol_;
-  std::optional<Listener> listener_;               ///< of a server, until the run ends
-  std::vector<Conversion> of_inputs_, of_outputs_; ///< from its units to those of the terminals
+  std::optional<Listener> listener_; ///< listener of a server, until the run ends
+  /// Conversions from its units to those of the terminals
+  std::vector<Conversion> of_inputs_, of_outputs_;
   std::vector<std::string> unit_notes_;
-  std::vector<double> in_; ///< in its units
+  std::vector<double> in_; ///< inputs in its units
   Socket socket_;          ///< closed before the first sampling instant
-  double t_ = 0.0;         ///< of the last exchange [s]
+  double t_ = 0.0;         ///< time of the last exchange [s]
   bool reset_ = false;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Pose and motion of one body, and its loads in two kinds of axes.
+/// Pose and motion of one body; conversion of its loads between axes.
 
 #include <algorithm>
 
@@ -7,14 +7,14 @@
 
 namespace hydrodae::element {
 
-/// r, v in world axes, w in body axes, about the centre of gravity.
+/// State of a body at its centre of gravity: r, v in world axes, w in body axes.
 template <class S> struct BodyState {
   Vec3<S> r, v, w, v_dot, w_dot;
   Vec4<S> p;
   Mat3<S> R;
 };
 
-/// What Port::in_water sees of a body: r, R (by columns), v, w, v', w'.
+/// Inputs of Port::in_water for one body: r, R (by columns), v, w, v', w'.
 inline constexpr int body_numbers = 24;
 
 template <class S> void write(const BodyState<S>& b, S* out) {
@@ -27,7 +27,7 @@ template <class S> void write(const BodyState<S>& b, S* out) {
   put(b.w_dot);
 }
 
-/// Without p.
+/// Body state from the inputs of a law in water, without p.
 template <class S> BodyState<S> read_body(const S* in) {
   BodyState<S> b;
   const auto take = [&](auto& part) {
@@ -43,14 +43,14 @@ template <class S> BodyState<S> read_body(const S* in) {
   return b;
 }
 
-/// World force and body-axes moment of a wrench given in earth axes.
+/// Load as world force and body-axes moment, from a wrench in earth axes.
 template <class S> Vec6<S> to_tangent(const BodyState<S>& state, const Vec6<S>& wrench) {
   Vec6<S> load;
   load << wrench.template head<3>(), state.R.transpose() * wrench.template tail<3>();
   return load;
 }
 
-/// Force and moment in world axes of a load given as world force and body-axes moment.
+/// Load as force and moment in world axes, from world force and body-axes moment.
 inline Vector6 to_world(const BodyState<double>& state, const Vector6& tangent) {
   Vector6 load;
   load << tangent.head<3>(), state.R * tangent.tail<3>();

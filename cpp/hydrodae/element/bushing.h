@@ -14,11 +14,11 @@ namespace hydrodae::element {
 ///   W = W0 - K [d; theta] - C [d'; omega]     on body B, about its point, along the axes of the
 ///                                             bushing, which body A carries [N; N m]
 ///
-/// d: place of the point of B seen from that of A [m], theta: rotation vector of B against A [rad],
-/// both zero in the reference pose; d', omega: relative velocities. Where theta is large, or K
-/// couples rotations, a rotation vector is no exact coordinate of a moment: energy is kept to
-/// second order in theta. Beyond half a turn it goes on about the axis that it has; a rotation
-/// without an axis of its own ends the run there.
+/// d: place of the point of B relative to that of A [m]; theta: rotation vector of B against A
+/// [rad]; both are zero in the reference pose. d', omega: relative velocities. A rotation vector is
+/// no exact coordinate of a moment: where theta is large or K couples rotations, energy is kept to
+/// second order in theta. Beyond half a turn theta continues about its present axis; a rotation
+/// without a fixed axis ends the run there.
 struct Bushing {
   static constexpr std::string_view type = "bushing";
   static constexpr std::string_view doc =

@@ -22,7 +22,7 @@ struct ConstantLoad {
   Vector3 force = Vector3::Zero();
   Vector3 moment = Vector3::Zero();
 
-  /// Its load is what the signals are; it does work as a potential.
+  /// Law whose load equals its signals; its work is that of a potential.
   struct Law {
     template <class S> void operator()(const In<S>& in, const Out<S>& out) const {
       std::copy(in.signals, in.signals + 6, out.load);
@@ -34,7 +34,7 @@ struct ConstantLoad {
   };
   Law law() const { return {}; }
 
-  /// A program may change them while it runs.
+  /// Inputs that a program may change during the run.
   static std::vector<Signal> inputs() {
     return {{"force.x", "N"},    {"force.y", "N"},    {"force.z", "N"},
             {"moment.x", "N m"}, {"moment.y", "N m"}, {"moment.z", "N m"}};

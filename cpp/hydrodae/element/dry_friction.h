@@ -10,10 +10,10 @@ namespace hydrodae::element {
 
 /// Dry friction along the free motion of a joint (Coulomb), with located sticking and slipping.
 ///
-///   stick:  s' = 0          while the load that holds it is at most F_s
+///   stick:  s' = 0          while the reaction is at most F_s
 ///   slip:   f = -F_c sign(s')      [N], or [N m] if the motion is a rotation
 ///
-/// Its power is never positive. F_s, F_c are given, or coefficients times the N of a Bearing.
+/// Its power is never positive. F_s and F_c are given, or coefficients times N of a Bearing.
 struct DryFriction : FrictionLoads {
   static constexpr std::string_view type = "dry_friction";
   static constexpr Port port = Port::along_joint;
@@ -21,7 +21,7 @@ struct DryFriction : FrictionLoads {
   static constexpr std::string_view doc =
       "Coulomb friction along a joint, with located sticking and slipping.";
 
-  /// While it slips its load is the signal, which changes at events only; zero while it sticks.
+  /// Law while slipping: the load is the signal, which changes only at events; zero while sticking.
   struct Law {
     template <class S> void operator()(const In<S>& in, const Out<S>& out) const {
       *out.load = S(*in.signals);
@@ -31,7 +31,7 @@ struct DryFriction : FrictionLoads {
   };
   Law law() const { return {}; }
 
-  /// The same with a coefficient as the signal.
+  /// Law with a bearing: the signal is a coefficient.
   struct PressedLaw {
     Bearing bearing;
     template <class S> void operator()(const In<S>& in, const Out<S>& out) const {

@@ -43,7 +43,7 @@ std::vector<AtRest> at_rest(const Elements& list, const VectorX& x) {
     const Eigen::Map<const MatrixX> J(all.data() + k * in_size * out_size, out_size, in_size);
     AtRest& rest = rests.emplace_back(
         AtRest{out.segment(k * out_size, w), -J.topLeftCorner(w, w), -J.block(0, w, w, w)});
-    if (const Index a = list.shape.n_algebraic; a > 0) { // these follow x and v
+    if (const Index a = list.shape.n_algebraic; a > 0) { // algebraic unknowns follow x and v
       const MatrixX by_z = J.bottomRightCorner(a, a), f_z = J.topRightCorner(w, a);
       const MatrixX follow = solve_square(by_z, J.bottomLeftCorner(a, 2 * w));
       rest.stiffness += f_z * follow.leftCols(w);

@@ -15,10 +15,10 @@ namespace hydrodae::element {
 ///
 ///   f = -max(0, k u^n (1 + d u') + c u') r(u)     [N], or [N m] if the motion is a rotation
 ///
-/// u > 0: how far s is beyond `upper`, and likewise on the other side of `lower`. It never pulls.
-/// Within the first `width` it gets hard gradually, r = 3 x^2 - 2 x^3, x = u / width; else r = 1.
-/// With c = 0, struck at a low speed v, it gives back the part 1 - 2 d v / 3 of that. Both stops
-/// are the same.
+/// u > 0: depth of s beyond `upper`, and likewise beyond `lower`. The load never pulls. Within the
+/// first `width` the stiffness grows gradually, r = 3 x^2 - 2 x^3 with x = u / width; beyond it r =
+/// 1. With c = 0 an impact at low speed v returns the part 1 - 2 d v / 3 of the speed. Both stops
+/// are equal.
 struct EndStop {
   static constexpr std::string_view type = "end_stop";
   static constexpr std::string_view doc =
@@ -34,7 +34,7 @@ struct EndStop {
   double damping = 0.0, viscous = 0.0;
   double width = 0.0;
 
-  /// The law that the system evaluates.
+  /// Law with derived numbers.
   struct Law {
     double lower, upper, stiffness, exponent, damping, viscous, width;
 
@@ -47,7 +47,7 @@ struct EndStop {
         *out.load += push(below, -*in.v);
     }
 
-    /// Of the spring: int k u^n r(u) du.
+    /// Energy of the spring: int k u^n r(u) du.
     double energy(const In<double>& in) const {
       const double u = depth(*in.x), n = exponent;
       const double from = std::min(u, width);
@@ -72,8 +72,8 @@ struct EndStop {
   private:
     double depth(double s) const { return std::max({s - upper, lower - s, 0.0}); }
 
-    /// How far it is beyond where it begins to push: where it is touched, and would not pull [m or
-    /// rad].
+    /// Switching function [m or rad]: depth beyond the point where the stop begins to push. That
+    /// point needs contact and a load that does not pull.
     template <class S> S pushes(const S& u, const S& rate) const {
       if (!(u > S(0)))
         return u > S(-INFINITY) ? u : S(-1); // no stop on this side
@@ -81,7 +81,7 @@ struct EndStop {
       return pressed < u ? pressed : u;
     }
 
-    /// Without the width, continued oddly to u < 0.
+    /// Load without the factor r of the width, continued as an odd function to u < 0.
     template <class S> S load(const S& u, const S& rate) const {
       using std::abs, std::exp, std::log;
       const S size = abs(u);
@@ -113,7 +113,7 @@ struct EndStop {
     return {{"penetration", "m or rad", "How far the joint is beyond the stop."}};
   }
 
-  /// What is wrong with it, if anything.
+  /// Fault in the parameters, or nothing.
   std::optional<Fault> fault() const {
     const Law own = law();
     if (lower && lower_angle)

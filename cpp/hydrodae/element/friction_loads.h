@@ -1,6 +1,6 @@
 #pragma once
-/// What kinds of friction along a joint have in common: the loads of sticking and slipping, given,
-/// or as coefficients of the forces by which the joint's reaction presses its bearing.
+/// Common part of friction laws along a joint: loads of sticking and slipping, given directly or as
+/// coefficients of the load on the joint's bearing.
 
 #include <cmath>
 #include <memory>
@@ -20,8 +20,8 @@ namespace hydrodae::element {
 ///   N = preload + |F_1| + |F_2| (+ |M_z| / radius)        on a displacement [N]
 ///   N = radius (preload + |F_1| + |F_2|) + radius_axial |F_z|        on an angle [N m]
 ///
-/// with |x| = sqrt(x.x + small^2) on the bearings and sqrt(x^2 + small^2) - small of single loads,
-/// smooth where nothing presses. A radius or length of zero: the joint takes no such moment.
+/// |x| = sqrt(x.x + small^2) on the bearings and sqrt(x^2 + small^2) - small for single loads:
+/// smooth at zero load. A radius or length of zero: the joint takes no such moment.
 struct Bearing {
   bool turns = false;
   double preload = 0.0, length = 0.0, radius = 0.0, radius_axial = 0.0, small = 0.0;
@@ -32,7 +32,7 @@ struct Bearing {
     return sqrt(x * x + y * y + S(small * small));
   }
 
-  /// The same of a load that is often zero, where it is zero.
+  /// Smooth absolute value of a single load, zero at zero.
   template <class S> S single(const S& x) const { return size<S>(x, S(0)) - S(small); }
 
   /// Preload and forces across the axis on both bearings [N]. @param r  (6,) reaction on B
@@ -43,7 +43,7 @@ struct Bearing {
     return S(preload) + size<S>(x + a, y + b) + size<S>(x - a, y - b);
   }
 
-  /// N, what a coefficient multiplies [N, N m].
+  /// Normal load N, which friction coefficients multiply [N, N m].
   template <class S> S load(const S* r) const {
     S sum = turns ? S(radius) * across(r) : across(r);
     if (turns && radius_axial > 0.0)
@@ -65,20 +65,20 @@ struct FrictionLoads {
 
   // From the scene:
   bool turns = false;  ///< the coordinate is an angle
-  double weight = 0.0; ///< of the lighter body that moves [N]
+  double weight = 0.0; ///< weight of the lighter moving body [N]
 
-  /// Does the reaction of the joint press?
+  /// Returns whether friction depends on the joint reaction.
   bool pressed() const { return static_coefficient.has_value(); }
-  std::size_t shape() const { return pressed() ? 1 : 0; } ///< of the list that it belongs to
+  std::size_t shape() const { return pressed() ? 1 : 0; } ///< index of its list
 
-  /// Of loads, or of coefficients.
+  /// Load of sticking, or its coefficient.
   double stick() const { return static_coefficient.value_or(static_load.value_or(0.0)); }
   double slip() const {
     return pressed() ? kinetic_coefficient.value_or(stick()) : kinetic_load.value_or(stick());
   }
 
   Bearing bearing() const {
-    constexpr double little = 1e-5; // of the weight
+    constexpr double little = 1e-5; // part of the weight
     return {turns,
             preload,
             length.value_or(0.0),
@@ -88,13 +88,13 @@ struct FrictionLoads {
             slip()};
   }
 
-  /// Load of sticking that is common in the scene [N or N m].
+  /// Typical load of sticking in the scene [N or N m].
   double usual_load() const {
     const double lever = turns ? radius.value_or(1.0) : 1.0;
     return pressed() ? stick() * lever * (preload + weight) : stick();
   }
 
-  /// What is wrong with it, if anything.
+  /// Fault in the parameters, or nothing.
   std::optional<Fault> fault() const {
     if (pressed() == static_load.has_value())
       return Fault{"static", "write either 'static', the load itself, or 'static_coefficient', "
@@ -155,7 +155,7 @@ struct FrictionLoads {
 inline constexpr Quantity friction_power{
     "power", "W", "Load times rate: what it gives to the motion, negative where it takes."};
 
-/// Friction F whose joint presses it, as laws.h wants it.
+/// Friction F with a bearing, in the form that laws.h needs.
 template <class F> struct Pressed : F {
   static constexpr int n_reaction = 6;
   explicit Pressed(const F& force) : F(force) {}
@@ -174,8 +174,8 @@ template <class F> std::shared_ptr<const Elements> friction_list(const std::vect
       std::vector<Pressed<F>>(forces.begin(), forces.end()));
 }
 
-/// Steady friction over the rate of slip, g = F_c + (F_s - F_c) exp(-(s' / s'_s)^2), beside viscous
-/// damping.
+/// Steady friction as a function of slip rate, g = F_c + (F_s - F_c) exp(-(s' / s'_s)^2), and
+/// viscous damping.
 struct SteadyFriction {
   double stick, slip, rate, viscous;
 

@@ -31,7 +31,7 @@ struct FrictionLugre : FrictionLoads {
   double bristle_damping = 0.0;
   double viscous = 0.0;
 
-  /// The law that the system evaluates.
+  /// Law with derived numbers.
   struct Law {
     SteadyFriction steady;
     double stiffness, damping;

@@ -27,12 +27,12 @@ struct FrictionStribeck : FrictionLoads {
   std::optional<double> stribeck_rate;
   double viscous = 0.0;
 
-  /// The law that the system evaluates.
+  /// Law with derived numbers.
   struct Law {
     SteadyFriction steady;
     double creep;
 
-    /// Of a load, or a coefficient.
+    /// Dry friction as a load, or as a coefficient.
     template <class S> S dry(const S& v) const {
       using std::sqrt;
       return steady.dry(v) / sqrt(v * v + S(creep * creep)) * v;

@@ -1,8 +1,8 @@
 #pragma once
-/// A list of laws made of a struct that is filled from a case file. The struct, F, has
+/// List of laws made of a struct that is filled from a case file. The struct, F, has
 ///
 ///   type, name, fields(), port         as every force
-///   law()                              what is evaluated: itself, or a struct of derived numbers
+///   law()                              law to evaluate: F itself, or a struct of derived numbers
 ///
 /// and its law has
 ///
@@ -13,18 +13,17 @@
 ///   lost_at_rest()                     optional
 ///   kinks(In<double>, double* out)     with F::n_kinks
 ///
-/// One that acts on points says how many, n_points.
+/// Forces on points define their number, n_points.
 ///
-/// and F may say at_rest_only, why a linear model knows little of it; lost, what it lacks of those
-/// that are lost_at_rest; work, how its work counts; that it is timed: that its load depends on
-/// the time by itself; and that it is buoyant or moors (see `Elements`).
+/// Optional members of F: at_rest_only, reason why a linear model says little; lost, effect that
+/// the linear model lacks for laws that are lost_at_rest; work, its part in the energy balance;
+/// timed, its load depends explicitly on time; buoyant and moors (see `Elements`).
 ///
-/// A force with states says n_states and unknowns(), and how many of these, the last ones, are
-/// algebraic (n_algebraic): its law answers what is to be zero in place of their rates. One with
-/// numbers that a program may change while it runs, n_signals, inputs() and start_signals(). One
-/// that feels the reaction of its joint, n_reaction = 6. One that sticks at events, sticks(). One
-/// header and one line in the list of
-/// forces (model/scene.h) are all that a new kind takes.
+/// A force with states defines n_states, unknowns() and n_algebraic, the number of algebraic
+/// unknowns (the last ones); its law returns their residuals in place of rates. A force with inputs
+/// defines n_signals, inputs() and start_signals(). A force that reads the reaction of its joint
+/// defines n_reaction = 6; one that sticks at events, sticks(). A new kind of force needs one
+/// header and one line in the list of forces (model/scene.h).
 
 #include <type_traits>
 #include <utility>

@@ -70,7 +70,8 @@ private:
     const hydrodae_law* found;
     std::vector<double> parameters;
   };
-  static constexpr int most_out = 6 + 64; ///< states that differences are made of, on the stack
+  /// Largest number of outputs for differences, on the stack
+  static constexpr int most_out = 6 + 64;
 
   void call(const Law& law, double t, const double* in, double* out) const {
     const int w = shape.width;

@@ -11,16 +11,17 @@
 
 namespace hydrodae::element {
 
-/// What forces of type library_load and library_wrench have in common.
+/// Common part of forces of type library_load and library_wrench.
 struct LibraryLaw {
   std::string name;
-  std::string law; ///< its name in the library
+  std::string law; ///< name of the law in the library
   std::vector<double> parameters;
-  const hydrodae_law* found = nullptr; ///< given by whoever loads the library, and kept loaded
+  /// Function of the law, set by the loader, which keeps the library loaded
+  const hydrodae_law* found = nullptr;
 };
 
-/// Laws of shared libraries with one port and as many states; derivatives by the library, or by
-/// central differences whose step of 6e-6 leaves 1e-10 of a smooth law.
+/// Laws of shared libraries with one port and an equal number of states. Derivatives come from the
+/// library, or from central differences with a step of 6e-6 (error 1e-10 for a smooth law).
 std::shared_ptr<const Elements> list_of_library(Port port, std::string_view type,
                                                 const std::vector<const LibraryLaw*>& laws);
 

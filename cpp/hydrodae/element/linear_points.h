@@ -11,7 +11,7 @@
 
 namespace hydrodae::element {
 
-/// One law of this kind.
+/// Law that is linear in the places and velocities of points.
 class LinearPoints final : public Elements {
 public:
   /// @param reference  x0 (3 n,) [m]
@@ -33,7 +33,7 @@ public:
     Eigen::Map<MatrixX> J(jacobian, size_of(), 2 * size_of());
     J << -K_, -C_;
   }
-  /// Of the symmetric part, which alone has a potential.
+  /// Energy of the symmetric part of K, which alone has a potential.
   void energy(const double* in, const double*, double* joules) const override {
     const VectorX d = Eigen::Map<const VectorX>(in, size_of()) - x0_;
     *joules = 0.5 * d.dot(K_ * d);

@@ -3,7 +3,7 @@
 
 namespace hydrodae::element {
 
-/// A force and moment that are linear in the displacement of a body from its reference pose.
+/// Force and moment, linear in the displacement of a body from its reference pose.
 ///
 ///   W = W0 - K xi - C twist        [N; N m about the centre of gravity], earth axes
 ///

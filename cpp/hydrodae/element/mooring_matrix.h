@@ -12,7 +12,8 @@ namespace hydrodae::element {
 ///   F = F0 - K xi - C [v; w]      xi = [r - r_ref; rotation vector of R R_ref^T], earth axes
 ///
 /// F holds the force [N] and the moment about the centre of gravity [N m]. Beyond half a turn the
-/// rotation vector goes on about the axis that it has; a rotation without one ends the run there.
+/// rotation vector continues about its present axis; a rotation without a fixed axis ends the run
+/// there.
 struct MooringMatrix {
   static constexpr std::string_view type = "mooring_matrix";
   static constexpr Port port = Port::on_body;
@@ -25,7 +26,7 @@ struct MooringMatrix {
   Matrix6 damping = Matrix6::Zero();
   Vector6 pretension = Vector6::Zero();
 
-  /// The law that the system evaluates.
+  /// Law to evaluate.
   LinearWrench law() const { return {pretension, stiffness, damping}; }
 
   template <class M = MooringMatrix> static Fields<M> fields() {

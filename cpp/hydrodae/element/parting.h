@@ -1,19 +1,18 @@
 #pragma once
-/// Ropes and lines that part for good where their tension reaches what they bear: what their list
-/// answers beside being Elements.
+/// Ropes and lines that part permanently when their tension reaches the breaking load.
 
 #include <cstddef>
 
 namespace hydrodae::element {
 
-/// Of one law: its largest tension over the breaking load there.
+/// Largest ratio of tension to breaking load along one law.
 struct Overload {
-  double ratio = 0.0; ///< [-]; 0: it does not part, or has done so
-  int place = 0;      ///< part or segment that bears it, counted from 1 on
+  double ratio = 0.0; ///< ratio [-]; 0: the law cannot part, or has parted
+  int place = 0;      ///< number of the part or segment, from 1 on
 };
 
-/// The last two signals of each law belong to the run: the place where it has parted, 0 while it is
-/// whole, and the time [s].
+/// List of laws that can part. The run writes the last two signals of each law: the place where it
+/// has parted (0: whole), and the time [s].
 class Parting {
 public:
   virtual ~Parting() = default;
@@ -22,7 +21,7 @@ public:
 
   virtual bool may_part() const { return true; }
 
-  /// @param in, signals  of this law, as in Elements::evaluate
+  /// @param in, signals  values of this law, as in Elements::evaluate
   virtual Overload overload(std::size_t law, double t, const double* in,
                             const double* signals) const = 0;
 };

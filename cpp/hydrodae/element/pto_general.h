@@ -13,15 +13,14 @@
 
 namespace hydrodae::element {
 
-/// Power take-off along the free motion of a joint, of parts that add up, within limits.
+/// Power take-off along the free motion of a joint: a sum of parts, within limits.
 ///
 ///   f = -k (s - s0) - F_k(s) - c |s'|^(n-1) s' - F_c(s') - F_0 s' / sqrt(s'^2 + s'_0^2) + u
 ///   |f| <= F_max,  |f s'| <= P_max                  [N], or [N m] if the motion is a rotation
 ///
-/// F_k and F_c: curves through measured points, straight beyond their ends. u: what a controller
-/// asks for, else zero. The power absorbed, P =
-/// -f s', becomes eta P of electric power; power that the machine gives to the device, P < 0, costs
-/// P / eta_m.
+/// F_k and F_c: curves through measured points, straight beyond their ends. u: load from a
+/// controller, else zero. The absorbed power P = -f s' gives the electric power eta P; for P < 0
+/// the machine drives the device and takes the electric power P / eta_m.
 struct PtoGeneral {
   static constexpr std::string_view type = "pto_general";
   static constexpr std::string_view doc =
@@ -40,7 +39,7 @@ struct PtoGeneral {
   std::optional<double> load_limit, power_limit;
   double efficiency = 1.0, motor_efficiency = 1.0;
 
-  /// The law that the system evaluates.
+  /// Law with derived numbers.
   struct Law {
     double n, F0, rate0, most, power, eta, eta_motor;
     Curve spring, damper;
@@ -50,18 +49,18 @@ struct PtoGeneral {
       *out.load = in.beyond(0, room(f, limit)) ? f : f > S(0) ? limit : -limit;
     }
 
-    /// Where a limit begins to hold, and ends.
+    /// Switching function of the limits.
     void kinks(const In<double>& in, double* out) const {
       *out = room(wanted(in), limit_at(*in.v));
     }
 
-    /// Part of the limit that is left.
+    /// Unused part of the limit, 1 - |f| / limit.
     template <class S> static S room(const S& f, const S& limit) {
       using std::abs;
       return limit < S(INFINITY) ? S(1) - abs(f) / limit : S(1);
     }
 
-    /// Without limits.
+    /// Load without limits.
     template <class S> S wanted(const In<S>& in) const {
       using std::abs, std::exp, std::log, std::sqrt;
       const double c = in.signals[0], k = in.signals[1], s0 = in.signals[2];
@@ -84,7 +83,7 @@ struct PtoGeneral {
       return speed * S(most) > S(power) ? S(power) / speed : S(most);
     }
 
-    /// Of the springs; what a limit takes from them is not theirs.
+    /// Energy of the springs; limits do not change it.
     double energy(const In<double>& in) const {
       const double d = *in.x - in.signals[2];
       double sum = 0.5 * in.signals[1] * d * d;
@@ -113,7 +112,7 @@ struct PtoGeneral {
             curve(damper_at, damper_load)};
   }
 
-  /// A program may change them while it runs.
+  /// Inputs that a program may change during the run.
   static std::vector<Signal> inputs() {
     return {{"damping", "N (s/m)^n or N m (s/rad)^n", 0.0},
             {"stiffness", "N/m or N m/rad"},
@@ -126,7 +125,7 @@ struct PtoGeneral {
     return {{"electric_power", "W", "Power delivered, after the losses of the machine."}};
   }
 
-  /// What is wrong with it, if anything.
+  /// Fault in the parameters, or nothing.
   std::optional<Fault> fault() const {
     if (const std::string_view wrong = Curve::fault(spring_at, spring_load); !wrong.empty())
       return Fault{"spring_at", "'spring_at' " + std::string(wrong) + " 'spring_load'"};

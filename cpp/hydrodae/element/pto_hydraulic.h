@@ -15,13 +15,14 @@ namespace hydrodae::element {
 /// 2021-2032; the valves without losses).
 ///
 ///   f = -A (p_H - p_L) r(s')            [N], or [N m] if the motion is a rotation
-///   Q = A s' r(s'),  r = tanh(s' / s'_v)       what the valves let through [m3/s]
-///   Q_m = G (p_H - p_L)                 through the motor [m3/s]
+///   Q = A s' r(s'),  r = tanh(s' / s'_v)       flow through the valves [m3/s]
+///   Q_m = G (p_H - p_L)                 flow through the motor [m3/s]
 ///   p_H' = n p_H / V_H (Q - Q_m),  p_L' = -n p_L / V_L (Q - Q_m)
-///   V_i = V_i0 (p_i0 / p_i)^(1/n)       of the gas [m3]
+///   V_i = V_i0 (p_i0 / p_i)^(1/n)       volume of the gas [m3]
 ///
-/// On a rotation the area is that of the piston times its lever [m3/rad]. Energy is kept: the power
-/// absorbed, -f s', is what the motor takes, Q_m (p_H - p_L), and what the gas stores.
+/// On a rotation, A is the area of the piston times its lever [m3/rad]. Energy is conserved: the
+/// absorbed power -f s' is the sum of the motor power Q_m (p_H - p_L) and the power stored in the
+/// gas.
 struct PtoHydraulic {
   static constexpr std::string_view type = "pto_hydraulic";
   static constexpr std::string_view doc = "Hydraulic power take-off along a joint: cylinder, check "
@@ -60,7 +61,8 @@ struct PtoHydraulic {
     out.z_dot[1] = -n * low / gas_low * flow;
   }
 
-  /// Of the gas, zero at the start: int p dV = (p V - p0 V0) / (n - 1), isothermal p0 V0 log(p/p0).
+  /// Energy of the gas, zero at the start: int p dV = (p V - p0 V0) / (n - 1), isothermal p0 V0
+  /// log(p/p0).
   double energy(const In<double>& in) const {
     return stored(in.z[0], pressure_high, volume_high) + stored(in.z[1], pressure_low, volume_low);
   }
@@ -75,11 +77,11 @@ struct PtoHydraulic {
     values[1] = in.signals[0] * drop * drop;
   }
 
-  /// A program may change it while it runs: the displacement of the motor times its speed.
+  /// Inputs that a program may change during the run: displacement of the motor times its speed.
   static std::vector<Signal> inputs() { return {{"motor_conductance", "m3/(s Pa)", 0.0}}; }
   std::array<double, n_signals> start_signals() const { return {motor_conductance}; }
 
-  /// What is wrong with it, if anything.
+  /// Fault in the parameters, or nothing.
   std::optional<Fault> fault() const {
     if (pressure_low > pressure_high)
       return Fault{"pressure_low", "the low accumulator has more pressure than the high one"};
@@ -113,7 +115,7 @@ struct PtoHydraulic {
   }
 
 private:
-  /// tanh(s' / s'_v), by exponentials that cannot overflow.
+  /// Opening of the valves, tanh(s' / s'_v), with exponentials that cannot overflow.
   template <class S> S opening(const S& rate) const {
     using std::abs, std::exp;
     const S small = exp(S(-2.0 / valve_rate) * abs(rate));

@@ -10,15 +10,15 @@
 
 namespace hydrodae::element {
 
-/// Power take-off along the free motion of a joint whose machine follows the load that is asked for
-/// with a lag of first order.
+/// Power take-off along the free motion of a joint, whose machine follows its set load with a lag
+/// of first order.
 ///
 ///   T f' = f_a - f
 ///   f_a = -k (s - s0) - c s' + u,   |f_a| <= F_max     [N], or [N m] if the motion is a rotation
 ///
-/// s is the joint coordinate [m or rad], u what a controller asks for, else zero. f is a state; at
-/// the start it is zero. The power absorbed is -f s'; the lag turns damping partly into inertia:
-/// at a frequency w the machine is the impedance (c + k / (i w)) / (1 + i w T).
+/// s is the joint coordinate [m or rad]; u is the load from a controller, else zero. f is a state,
+/// zero at the start. The absorbed power is -f s'. The lag turns damping partly into inertia: at
+/// frequency w the machine is the impedance (c + k / (i w)) / (1 + i w T).
 struct PtoLagged {
   static constexpr std::string_view type = "pto_lagged";
   static constexpr Port port = Port::along_joint;
@@ -50,7 +50,7 @@ struct PtoLagged {
 
   bool lost_at_rest() const { return true; }
 
-  /// A program may change them while it runs.
+  /// Inputs that a program may change during the run.
   static std::vector<Signal> inputs() {
     return {{"damping", "N s/m or N m s/rad", 0.0},
             {"stiffness", "N/m or N m/rad"},

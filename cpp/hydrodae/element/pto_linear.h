@@ -13,9 +13,9 @@ namespace hydrodae::element {
 ///
 ///   f(t) = -k (s(t - tau) - s0) - c s'(t - tau) + u    [N], or [N m] if the motion is a rotation
 ///
-/// s is the joint coordinate [m or rad], tau a pure delay [s]; before the start the joint rests
-/// where it starts. u: what a controller asks for, else zero. Without delay and u the absorbed
-/// power is P = c s'^2 >= 0 [W]; with one of them it is -f(t) s'(t) and may have either sign.
+/// s is the joint coordinate [m or rad], tau a pure delay [s]; before the start the joint is at
+/// rest. u is the load from a controller, else zero. Without delay and u the absorbed power is P =
+/// c s'^2 >= 0 [W]; otherwise it is -f(t) s'(t) and may have either sign.
 struct PtoLinear {
   static constexpr std::string_view type = "pto_linear";
   static constexpr Port port = Port::along_joint;
@@ -30,7 +30,7 @@ struct PtoLinear {
   double neutral = 0.0;
   double delay = 0.0;
 
-  /// The law that the system evaluates: this struct itself.
+  /// Law to evaluate: this struct.
   const PtoLinear& law() const { return *this; }
 
   template <class S> void operator()(const In<S>& in, const Out<S>& out) const {
@@ -47,7 +47,7 @@ struct PtoLinear {
     return 0.5 * in.signals[1] * stretched * stretched;
   }
 
-  /// A program may change them while it runs.
+  /// Inputs that a program may change during the run.
   static std::vector<Signal> inputs() {
     return {{"damping", "N s/m or N m s/rad", 0.0},
             {"stiffness", "N/m or N m/rad"},

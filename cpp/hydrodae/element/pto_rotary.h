@@ -9,16 +9,16 @@
 
 namespace hydrodae::element {
 
-/// Linear power take-off on the relative rotations of two bodies, as at a ball joint whose roll,
-/// pitch and yaw are each damped.
+/// Linear power take-off on the relative rotations of two bodies, such as a ball joint with damped
+/// roll, pitch and yaw.
 ///
 ///   m = -K theta - C omega + u     on body B [N m], along the axes that body A carries
 ///
-/// u: what a controller asks for, else zero. theta: rotation vector of B against A [rad], zero in
-/// the reference pose; omega: relative angular velocity. Without u the power C omega . omega is
-/// absorbed. About several axes at once the spring keeps energy to second order in theta. Beyond
-/// half a turn theta goes on about the axis that it has, by any number of turns; a rotation without
-/// an axis of its own ends the run there.
+/// u is the load from a controller, else zero. theta: rotation vector of B against A [rad], zero in
+/// the reference pose; omega: relative angular velocity. Without u the absorbed power is C omega .
+/// omega. For rotations about several axes the spring keeps energy to second order in theta. Beyond
+/// half a turn theta continues about its present axis, over any number of turns; a rotation without
+/// a fixed axis ends the run there.
 struct PtoRotary {
   static constexpr std::string_view type = "pto_rotary";
   static constexpr std::string_view doc = "Linear power take-off on relative roll, pitch and yaw "
@@ -34,7 +34,7 @@ struct PtoRotary {
 
   static constexpr int n_signals = 9;
 
-  /// Signals: C, K and u about x, y and z.
+  /// Law with the signals C, K and u about x, y and z.
   struct Law {
     template <class S> void operator()(const In<S>& in, const Out<S>& out) const {
       for (int k = 0; k < 3; ++k) {
@@ -60,7 +60,7 @@ struct PtoRotary {
   };
   Law law() const { return {}; }
 
-  /// A program may change them while it runs.
+  /// Inputs that a program may change during the run.
   static std::vector<Signal> inputs() {
     return {{"damping.x", "N m s/rad", 0.0},
             {"damping.y", "N m s/rad", 0.0},

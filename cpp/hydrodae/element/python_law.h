@@ -12,12 +12,12 @@
 
 namespace hydrodae::element {
 
-/// A law that the program which runs the scene gives: load (width,) at t, x (width,), v (width,).
-/// Must not throw; values that are no numbers end the run.
+/// Law as a function of the calling program: load (width,) at t, x (width,), v (width,). It must
+/// not throw; values that are not numbers end the run.
 using Function = std::function<void(double t, const double* x, const double* v, double* load)>;
 
-/// Evaluates a function; derivatives by central differences, whose step h = 6e-6 |x| leaves 1e-10
-/// of a smooth law.
+/// Law that evaluates a function; derivatives by central differences with a step of h = 6e-6 |x|
+/// (error 1e-10 for a smooth law).
 template <int w> struct FunctionLaw {
   Function function;
 
@@ -65,7 +65,7 @@ private:
   }
 };
 
-/// A Python function of t, s, s' that gives the load along the free motion of a joint.
+/// Load along the free motion of a joint by a Python function of t, s, s'.
 struct PythonLoad {
   static constexpr std::string_view type = "python_load";
   static constexpr std::string_view doc = "Load along a joint by a Python function f(t, s, s').";
@@ -74,7 +74,7 @@ struct PythonLoad {
   std::string name;
   std::string joint;
   std::optional<std::string> coordinate;
-  Function function; ///< given by the program
+  Function function; ///< function set by the program
 
   FunctionLaw<1> law() const { return {function}; }
 
@@ -93,8 +93,8 @@ struct PythonLoad {
   }
 };
 
-/// A Python function of t, xi, twist (6 each, earth axes) that gives force and moment about the
-/// centre of gravity of a body.
+/// Force and moment about the centre of gravity of a body by a Python function of t, xi, twist (6
+/// each, earth axes).
 struct PythonWrench {
   static constexpr std::string_view type = "python_wrench";
   static constexpr std::string_view doc =
@@ -103,7 +103,7 @@ struct PythonWrench {
   static constexpr bool timed = true;
   std::string name;
   std::string body;
-  Function function; ///< given by the program
+  Function function; ///< function set by the program
 
   FunctionLaw<6> law() const { return {function}; }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Laws that stick and slip at places of their own: what their list answers beside being Elements.
-/// Which places slip is in signals of the law that have no name; they change at located events.
+/// Laws with places that stick and slip. Unnamed signals of the law state which places slip; they
+/// change at located events.
 
 #include <cstddef>
 
@@ -12,18 +12,17 @@ public:
 
   virtual bool may_rub() const { return true; }
 
-  /// Numbers of `rubs` of each law.
+  /// Number of values in `rubs` for each law.
   virtual int n_rubs() const = 0;
 
-  /// How far each place is from doing else than the signals say; at zero it changes, below it
-  /// should have.
-  /// @param in, signals  of this law, as in Elements::evaluate
+  /// Margins of each place to its next change of state: zero at the change, negative after it.
+  /// @param in, signals  values of this law, as in Elements::evaluate
   /// @param out  (n_rubs,)
   virtual void rubs(std::size_t law, double t, const double* in, const double* signals,
                     double* out) const = 0;
 
-  /// Writes into the signals what sticks and what slips.
-  /// @returns whether there is anything new
+  /// Writes into the signals which places stick and which slip.
+  /// @returns whether any signal has changed
   virtual bool settle(std::size_t law, double t, const double* in, double* signals) const = 0;
 };
 

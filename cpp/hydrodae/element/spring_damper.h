@@ -17,8 +17,8 @@ namespace hydrodae::element {
 ///
 /// s: distance of the points [m], d = s - s0; F: a curve through measured points, straight beyond
 /// its ends. A negative k pushes away from s0. The points are given in the reference pose. Where
-/// they coincide the force has no direction; it has to be zero there, as of a linear spring with s0
-/// = 0, whose vector -k (r_B - r_A) is smooth. Its damper then acts along the motion.
+/// they coincide the force has no direction, so it must be zero there. A linear spring with s0 = 0
+/// is: its vector -k (r_B - r_A) is smooth. Its damper then acts along the motion.
 struct SpringDamper {
   static constexpr std::string_view type = "spring_damper";
   static constexpr Port port = Port::along_distance;
@@ -34,11 +34,12 @@ struct SpringDamper {
   double stiffness = 0.0;
   double damping = 0.0;
   double force = 0.0;
-  std::optional<double> length; ///< s0; by default the distance in the reference pose
+  /// Natural length s0; by default the distance in the reference pose
+  std::optional<double> length;
   std::vector<double> hardening;
   std::vector<double> curve_at, curve_force;
 
-  /// The law that the system evaluates, with s0 known.
+  /// Law to evaluate, with s0 known.
   struct Law {
     double stiffness, damping, length;
     std::vector<double> hardening;
@@ -73,11 +74,11 @@ struct SpringDamper {
             curve_at.empty() ? Curve() : Curve(curve_at, curve_force)};
   }
 
-  /// A program may change it while it runs.
+  /// Inputs that a program may change during the run.
   static std::vector<Signal> inputs() { return {{"force", "N"}}; }
   std::array<double, n_signals> start_signals() const { return {force}; }
 
-  /// Does it rest where its points coincide?
+  /// Returns whether the spring is at rest where its points coincide.
   bool rests_at_zero() const {
     const double s = 0.0, v = 0.0;
     double f = 0.0, none = 0.0;
@@ -85,7 +86,7 @@ struct SpringDamper {
     return f == 0.0;
   }
 
-  /// What is wrong with it, if anything.
+  /// Fault in the parameters, or nothing.
   std::optional<Fault> fault() const {
     if (const std::string_view wrong = Curve::fault(curve_at, curve_force); !wrong.empty())
       return Fault{"curve_at", "'curve_at' " + std::string(wrong) + " 'curve_force'"};

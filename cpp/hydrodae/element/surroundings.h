@@ -5,11 +5,11 @@
 
 namespace hydrodae::element {
 
-/// What surrounds the laws that are made with it (`list(forces, surroundings)`).
+/// Environment of the laws that are made with it (`list(forces, surroundings)`).
 struct Surroundings {
   double gravity = 9.81; ///< [m/s2]
-  double density = 0.0;  ///< of the water, 0 without water [kg/m3]
-  sea::WaveField water;  ///< its depth, waves and current
+  double density = 0.0;  ///< density of the water [kg/m3]; 0 without water
+  sea::WaveField water;  ///< depth, waves and current of the water
 };
 
 } // namespace hydrodae::element

@@ -24,7 +24,7 @@ public:
 
   /// x := L^-1 x where x is zero before `from`, and x := L^-T x.
   void solve_forward(Lanes* x, Index from = 0) const;
-  /// Of four vectors.
+  /// Solves for four vectors.
   void solve_forward(Lanes* const* x, Index from) const;
   void solve_backward(Lanes* x) const;
 

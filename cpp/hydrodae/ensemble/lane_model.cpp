@@ -115,7 +115,7 @@ void LaneModel::take(const Lanes* y, std::size_t k) {
     out[i] = y[i].lane[k];
 }
 
-/// Poses and velocities of the bodies from those of the runs.
+/// Computes poses and velocities of the bodies from those of the runs.
 void LaneModel::see_bodies() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     BodyLanes& b = bodies_[i];
@@ -250,7 +250,7 @@ HYDRODAE_WIDE void LaneModel::add_inertia(const Lanes* y, Lanes* yp) {
   }
 }
 
-/// What L is in load = L (A U' + y) of hydro_axes.h, without the terms of the momentum.
+/// Matrix L of load = L (A U' + y) in hydro_axes.h, without the momentum terms.
 LaneModel::Turn LaneModel::turn_of(const system::HydroBody& hb) const {
   const BodyLanes& b = bodies_[static_cast<std::size_t>(hb.body)];
   if (s_.hydro.axes == system::HydroAxes::body) {
@@ -358,7 +358,7 @@ template <> joint::Geometry<Lanes> LaneModel::geometry<Lanes>(const system::Join
   return joint::geometry<Lanes>(j.B, r[0], R[0], r[1], R[1]);
 }
 
-/// With the rates of the poses.
+/// Geometry with the rates of the poses.
 template <> joint::Geometry<Moving> LaneModel::geometry<Moving>(const system::JointData& j) const {
   Vec3<Moving> r[2];
   Mat3<Moving> R[2];
@@ -381,7 +381,7 @@ template <> joint::Geometry<Moving> LaneModel::geometry<Moving>(const system::Jo
   return joint::geometry<Moving>(j.B, r[0], R[0], r[1], R[1]);
 }
 
-/// G^T and (dG/dt) u of all rows, and L^-1 G^T.
+/// Computes G^T and (dG/dt) u of all rows, and L^-1 G^T.
 HYDRODAE_WIDE void LaneModel::fill_rows() {
   const system::JointData* last = nullptr;
   joint::Geometry<Moving> g;
@@ -526,7 +526,7 @@ void LaneModel::close() {
   }
 }
 
-/// Poses of y.
+/// Reads the poses of y.
 void LaneModel::see(const Lanes* y) {
   for (std::size_t k = 0; k < width; ++k) {
     take(y, k);
@@ -536,7 +536,7 @@ void LaneModel::see(const Lanes* y) {
   see_bodies();
 }
 
-/// Positions of the runs into y.
+/// Writes the positions of the runs into y.
 void LaneModel::put(Lanes* y) const {
   for (std::size_t k = 0; k < width; ++k)
     for (Index i = 0; i < s_.u0; ++i)
@@ -596,7 +596,7 @@ void LaneModel::move_positions(Lanes* y) {
   put(y);
 }
 
-/// As SaddlePoint::project does for one run, with the same limits.
+/// Projects as SaddlePoint::project does for one run, with the same limits.
 void LaneModel::project(Lanes* y) {
   using linalg::SaddlePoint;
   for (std::size_t k = 0; k < width; ++k) {
@@ -618,7 +618,8 @@ void LaneModel::project(Lanes* y) {
     worst = widest(gap);
   }
   find_rates(y);
-  for (int pass = 0; pass < 2; ++pass) { // the matrix is of a pose a little off: twice
+  // two passes: the matrix belongs to a slightly different pose
+  for (int pass = 0; pass < 2; ++pass) {
     close();
     for (Index i = 0; i < s_.n_u; ++i)
       y[s_.u0 + i] += step_[static_cast<std::size_t>(i)];
@@ -629,7 +630,7 @@ void LaneModel::project(Lanes* y) {
   }
 }
 
-/// The largest of the lanes that are sound.
+/// Largest value of the sound lanes.
 double LaneModel::widest(const Lanes& gap) const {
   double out = 0.0;
   for (std::size_t k = 0; k < width; ++k)

@@ -26,9 +26,10 @@ public:
   ///   `why_not_together`); they outlive the model
   explicit LaneModel(std::span<const system::Regime* const> runs);
 
-  Index size() const { return n_; } ///< of q, u and z
+  Index size() const { return n_; } ///< number of q, u and z
 
-  /// y' of q, u and z by y (n,). Lanes without finite accelerations are cleared in `sound`.
+  /// Computes y' of q, u and z from y (n,). Lanes without finite accelerations are cleared in
+  /// `sound`.
   void accelerations(double t, const Lanes* y, Lanes* yp);
 
   /// Lets the loads on the bodies of run k judge the state of the last `accelerations`. Throws
@@ -39,11 +40,12 @@ public:
   /// matrix of the last `accelerations`. Lanes that stay open are cleared in `sound`.
   void project(Lanes* y);
 
-  /// Is the lane computed well so far?
+  /// True for lanes that have been computed without failure.
   std::array<bool, width> sound;
 
-  // Of the state of the last `accelerations`:
-  const std::vector<Lanes>& absorbed() const { return absorbed_; } ///< by take-offs [W]
+  // Results of the last `accelerations`:
+  /// Power absorbed by take-offs [W]
+  const std::vector<Lanes>& absorbed() const { return absorbed_; }
   /// Power of the loads and kinetic energy: of the scene with the fluid in it, without the
   /// reactions; then, where there are several, of the bodies of each mechanism by all loads.
   struct Balance {
@@ -76,7 +78,7 @@ private:
   struct Row {
     const system::JointData* joint = nullptr;
     joint::BasicRow kind;
-    Index mu = 0, lambda = 0; ///< in the residual
+    Index mu = 0, lambda = 0; ///< indices in the residual
     struct Part {
       int cluster = 0;
       Index from = 0;       ///< first entry that is not zero
@@ -91,9 +93,9 @@ private:
     std::vector<int> bodies;
     LaneCholesky mass;
     std::vector<Lanes> load; ///< (n,) right-hand side, then accelerations
-    struct Feels {           ///< a row of a joint that feels the cluster
+    struct Feels {           ///< row of a joint that acts on the cluster
       Index row = 0;         ///< in `rows_`
-      std::size_t part = 0;  ///< of that row
+      std::size_t part = 0;  ///< part of that row
     };
     std::vector<Feels> rows;
     Row::Part& part(std::vector<Row>& all, std::size_t i) const {
@@ -130,21 +132,21 @@ private:
   void move_positions(Lanes* y);
   void take(const Lanes* y, std::size_t k);
 
-  const system::Regime& s_; ///< of the first run: what all have in common
+  const system::Regime& s_; ///< regime of the first run, for common data
   const Index n_;
   std::vector<Run> runs_;
   std::vector<BodyLanes> bodies_;
   std::vector<Vec6<Lanes>> loads_;
   std::vector<Lanes> U_, U_dot_, momentum_, force_, damped_;
-  std::vector<Turn> turns_; ///< of each hydrodynamic body
+  std::vector<Turn> turns_; ///< turns of each hydrodynamic body
   std::vector<Cluster> clusters_;
-  std::vector<int> cluster_of_; ///< of each body; -1: it cannot move
-  std::vector<Index> offset_;   ///< of each body in its cluster
+  std::vector<int> cluster_of_; ///< cluster of each body; -1: fixed
+  std::vector<Index> offset_;   ///< offset of each body in its cluster
   std::vector<Row> rows_;
   LaneCholesky schur_; ///< G M^-1 G^T
   std::vector<Lanes> lambda_;
-  std::vector<Lanes> gap_;  ///< of each row, or its rate
-  std::vector<Lanes> step_; ///< (n_u,) that closes the gaps
+  std::vector<Lanes> gap_;  ///< gap of each row, or its rate
+  std::vector<Lanes> step_; ///< (n_u,) step that closes the gaps
   std::vector<Lanes> absorbed_;
   std::vector<Balance> balances_;
   std::vector<std::string> take_offs_;

@@ -32,7 +32,7 @@ using integrate::tableaux::rk8_extra_c;
 /// Part of the run below which steps do not come to its end in a bearable time: ten million.
 constexpr double shortest = 1e-7;
 
-/// What one run of the march has of its own.
+/// Data of one run of the march.
 struct Run {
   explicit Run(Start& start)
       : regime(start.regime), forcing(regime, start.scene.solver.end_time, start.scene.output.step),
@@ -44,10 +44,10 @@ struct Run {
   system::Forcing forcing;
   system::MotionScale scale;
   std::vector<std::unique_ptr<run::EndGuard>> guards;
-  VectorX y, yp; ///< at the end of the last step
+  VectorX y, yp; ///< state at the end of the last step
   std::unique_ptr<session::SeaSample> sea;
   std::vector<double> exchanged; ///< energy of each balance [J]
-  std::string left;              ///< why it has left the march; empty: it is in it
+  std::string left;              ///< reason why it has left the march; empty: it has not
 };
 
 class March {
@@ -56,7 +56,7 @@ public:
   std::vector<Outcome> operator()();
 
 private:
-  using Column = std::vector<Lanes>; ///< (n,) of q, u, z
+  using Column = std::vector<Lanes>; ///< (n,) values of q, u, z
 
   static std::vector<const system::Regime*>
   regimes_of(const std::vector<std::unique_ptr<Start>>& starts);
@@ -82,7 +82,7 @@ private:
   Outcome outcome(std::size_t k) const;
 
   const std::vector<std::unique_ptr<Start>>& starts_;
-  const std::size_t count_; ///< runs; further lanes repeat the last one
+  const std::size_t count_; ///< number of runs; further lanes repeat the last one
   const model::Scene& scene_;
   LaneModel model_;
   std::vector<Run> runs_;
@@ -95,11 +95,11 @@ private:
   Lanes usual_jump_{0.0};                  ///< see is_smooth
   std::vector<Column> k_; ///< rates of the stages, at the end, and of three stages inside
   std::vector<std::vector<Lanes>>
-      powers_;                   ///< of each stage and of the end: take-offs, then all loads
-  std::vector<Lanes> work_;      ///< their integrals [J]
-  std::vector<Lanes> mean_from_; ///< the same at the end of the ramp
+      powers_;                   ///< powers at each stage and at the end: take-offs, then all loads
+  std::vector<Lanes> work_;      ///< integrals of these powers [J]
+  std::vector<Lanes> mean_from_; ///< integrals at the end of the ramp [J]
   std::vector<LaneModel::Balance> start_;
-  std::vector<Lanes> churned_; ///< of each balance, the integral of |power| [J]
+  std::vector<Lanes> churned_; ///< integral of |power| of each balance [J]
   long next_sample_ = 0;
   std::vector<double> row_;
   RunningSums sums_of_signals_;
@@ -251,7 +251,7 @@ HYDRODAE_WIDE Lanes March::norm() {
   return sqrt(out);
 }
 
-/// Of the two estimates of the method: Hairer, Norsett and Wanner, section II.10.
+/// Local error from the two estimates of the method (Hairer, Norsett and Wanner, section II.10).
 Lanes March::error(double h) {
   combine(h, rk8_e5);
   const Lanes five = norm();
@@ -265,7 +265,7 @@ Lanes March::error(double h) {
   return out;
 }
 
-/// Do the accelerations at the end of the step agree with those of the last stage? See
+/// Returns whether the accelerations at the end of the step agree with those of the last stage. See
 /// ExplicitRk::is_smooth: a slope that changes within the step shows here.
 bool March::is_smooth(double h) {
   for (std::size_t i = 0; i < error_.size(); ++i)
@@ -281,7 +281,7 @@ bool March::is_smooth(double h) {
 
 /// Makes one step up to `end` at most; false where no run is left.
 bool March::step(double end) {
-  constexpr double power = 1.0 / 8.0; ///< of the error that bounds the next step
+  constexpr double power = 1.0 / 8.0; ///< exponent of the error that controls the next step
   for (std::size_t i = 0; i < scales_.size(); ++i)
     for (std::size_t k = 0; k < width; ++k)
       scales_[i].lane[k] = runs_[std::min(k, count_ - 1)].regime.scale[static_cast<Index>(i)];

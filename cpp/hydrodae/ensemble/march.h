@@ -16,7 +16,7 @@ namespace hydrodae::ensemble {
 /// A scene at its start: system, regime and consistent rates.
 struct Start {
   /// Throws ModelError or SolverError when the scene cannot start.
-  /// @param like of a start whose pattern serves where the equations are alike; null: none
+  /// @param like  start whose pattern serves if the equations are alike; null: none
   explicit Start(const model::Scene& scene, const Start* like = nullptr);
   Start(const Start&) = delete;
   Start& operator=(const Start&) = delete;
@@ -28,10 +28,10 @@ struct Start {
   VectorX y, yp;
 };
 
-/// What a run alone needs, in words; empty: it can be marched beside others.
+/// Reason why a run must be made alone; empty: it can join a march.
 std::string alone_because(const Start& start);
 
-/// In what two scenes differ so that they cannot be marched side by side; empty: they can.
+/// Difference that prevents a common march of two scenes; empty: none.
 std::string apart_because(const Start& one, const Start& other);
 
 /// The outcome of one lane.

@@ -11,7 +11,7 @@ namespace hydrodae::ensemble {
 
 namespace {
 
-/// Do the laws of two systems act at the same places?
+/// Returns whether the laws of two systems act at the same places.
 bool same_ports(const system::System& a, const system::System& b) {
   const auto same = [](const system::PortData& x, const system::PortData& y) {
     const auto point = [](const joint::Marker& m, const joint::Marker& n) {
@@ -29,7 +29,7 @@ bool same_ports(const system::System& a, const system::System& b) {
                     });
 }
 
-/// Do two starts have equations between the same unknowns?
+/// Returns whether two starts have equations between the same unknowns.
 bool alike(const Start& a, const Start& b) {
   const auto joint = [](const system::JointData& x, const system::JointData& y) {
     return x.A.body == y.A.body && x.B.body == y.B.body && x.type == y.type;
@@ -63,7 +63,7 @@ Start::Start(const model::Scene& given, const Start* like)
 
 namespace {
 
-/// Does a row have no branches (LaneModel)?
+/// Returns whether a row has no branches (LaneModel).
 bool is_smooth(const joint::BasicRow& row) {
   return std::holds_alternative<joint::SpanRow>(row) ||
          std::holds_alternative<joint::PerpRow>(row) ||
@@ -81,7 +81,7 @@ std::string of_elements(const system::ElementList& list) {
   return "";
 }
 
-/// Have two scenes the same states of the radiation, driven alike?
+/// Returns whether two scenes have the same radiation states with the same drive.
 bool same_memory(const system::HydroData& a, const system::HydroData& b) {
   using Block = system::HydroData::Block;
   using Input = system::HydroData::Input;

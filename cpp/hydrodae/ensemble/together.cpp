@@ -14,7 +14,7 @@ namespace {
 
 struct Group {
   std::vector<std::unique_ptr<Start>> starts;
-  std::vector<std::size_t> places; ///< of its scenes
+  std::vector<std::size_t> places; ///< places of its scenes
 };
 
 /// Takes a start into the first group with room that it fits.

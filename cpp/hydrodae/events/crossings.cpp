@@ -10,7 +10,7 @@ namespace hydrodae::events {
 
 namespace {
 
-constexpr double beyond_zero = 1e-9; ///< of the largest rate
+constexpr double beyond_zero = 1e-9; ///< distance beyond zero, as part of the largest rate
 
 int motion_of(const system::Regime& s, const std::string& channel) {
   std::vector<std::string> names;
@@ -41,7 +41,7 @@ double Crossing::rate(double t, const VectorX& y, const VectorX& yp) {
           system::joint_velocity<double>(s_.joints[static_cast<std::size_t>(joint)], ws_.bodies));
 }
 
-/// What part of the largest rate is left until it has crossed zero, and a little more.
+/// Remaining part of the largest rate until the crossing, plus a small margin.
 double Crossing::left(double rate) const {
   return state_.side != 0.0 && state_.fastest > 0.0
              ? state_.side * rate / state_.fastest + beyond_zero

@@ -1,5 +1,5 @@
 #pragma once
-/// Where rates of joints change their sign inside a step: events for controllers that hear them.
+/// Zero crossings of joint rates inside a step: events for controllers.
 
 #include <string>
 #include <vector>
@@ -13,8 +13,8 @@ namespace hydrodae::events {
 /// step that goes on from there does not find the same standstill again.
 class Crossing : public Source {
 public:
-  /// @param channel  of the rate: "joints/slide/displacement_rate"
-  /// Throws CaseError where that is no rate of a joint.
+  /// @param channel  channel of the rate: "joints/slide/displacement_rate"
+  /// Throws CaseError if that is no rate of a joint.
   Crossing(const system::Regime& regime, const std::string& channel);
 
   std::size_t count() const override { return 1; }
@@ -22,12 +22,12 @@ public:
     out[0] = left(rate(t, y, yp));
   }
 
-  /// At the end of an accepted step. @returns whether it ends in a crossing
+  /// Takes the end of an accepted step. @returns whether it ends in a crossing
   bool accept(double t, const VectorX& y, const VectorX& yp);
 
   struct State {
     double side = 0.0;    ///< sign of the rate since the last crossing; 0: at rest so far
-    double fastest = 0.0; ///< [m/s or rad/s]
+    double fastest = 0.0; ///< largest rate so far [m/s or rad/s]
   };
   const State& state() const { return state_; }
   void set(const State& state) { state_ = state; }

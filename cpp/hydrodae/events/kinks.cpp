@@ -7,7 +7,8 @@ namespace hydrodae::events {
 
 namespace {
 
-constexpr double nothing = 1e-13; ///< of the numbers, whose size where they count is one
+/// Size of a switching function that counts as zero; usual sizes are one
+constexpr double nothing = 1e-13;
 
 } // namespace
 
@@ -48,7 +49,7 @@ void Kinks::settle(double t, const VectorX& y) {
   write();
 }
 
-/// Into the signals of the laws.
+/// Writes the sides into the signals of the laws.
 void Kinks::write() {
   auto side = state_.side.begin();
   for (const View::List& list : view_.lists()) {

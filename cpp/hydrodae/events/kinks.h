@@ -15,16 +15,16 @@ namespace hydrodae::events {
 /// One margin for each kink: its number on the side on which it is.
 class Kinks : public Source {
 public:
-  /// Null: no law of the system has any.
+  /// Makes the kinks of the system; null: no law has any.
   static std::unique_ptr<Kinks> make(system::Regime& regime, const VectorX& y);
 
   std::size_t count() const override { return state_.side.size(); }
   void margins(double t, const VectorX& y, const VectorX& yp, std::span<double> out) override;
 
-  /// At an event at t [s]: puts each law on the side of its kink that its number has.
+  /// Puts each law on the side of its kink that its number has, at an event at t [s].
   void settle(double t, const VectorX& y);
 
-  /// At the end of a step without one: those that were on the kink may have left it.
+  /// Takes the end of a step without event: laws that were on the kink may have left it.
   void accept(double t, const VectorX& y);
 
   struct State {

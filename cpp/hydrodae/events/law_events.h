@@ -15,20 +15,20 @@ public:
   /// Throws ModelError as Partings.
   LawEvents(system::Regime& regime, const VectorX& y);
 
-  /// Those that there are.
+  /// Existing event sources.
   std::vector<Source*> sources() const;
 
-  /// At the end of a step without event.
+  /// Takes the end of a step without event.
   void accept(double t, const VectorX& y);
 
-  /// At an event at t [s]: lets part what does so.
+  /// Parts the laws whose event is at t [s].
   void part(double t, const VectorX& y);
 
   /// Lets stick and slip what does so at t [s], and takes sides at kinks.
   /// @returns whether anything sticks or slips that did not
   bool settle(double t, const VectorX& y);
 
-  /// But for the signals of the laws, which the regime holds.
+  /// State without the signals of the laws, which the regime holds.
   Kinks::State state() const { return kinks_ ? kinks_->state() : Kinks::State{}; }
   void set(Kinks::State state);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What laws of one kind see at an instant, for those that watch them inside a step.
+/// Inputs of laws of one kind at an instant, for sources that watch them inside a step.
 
 #include <vector>
 
@@ -24,7 +24,7 @@ public:
 
   const std::vector<List>& lists() const { return lists_; }
 
-  /// Laws of all lists.
+  /// Number of laws in all lists.
   std::size_t size() const {
     std::size_t n = 0;
     for (const List& list : lists_)
@@ -32,7 +32,7 @@ public:
     return n;
   }
 
-  /// Of a law by its number among them.
+  /// Name of a law by its number among them.
   const std::string& name(std::size_t law) const {
     auto list = lists_.begin();
     for (; law >= s_.elements[list->index].laws->size(); ++list)

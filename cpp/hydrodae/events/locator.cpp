@@ -11,10 +11,11 @@ namespace hydrodae::events {
 
 namespace {
 
-constexpr int most_degree = 16; ///< beyond it Bernstein coefficients lose digits
-constexpr int halvings = 20;    ///< of a step: roots nearer than 1e-6 of it count as one
+constexpr int most_degree = 16; ///< highest degree; beyond it Bernstein coefficients lose digits
+constexpr int halvings = 20;    ///< halvings of a step: roots closer than 1e-6 of it count as one
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double noise = 4.0 * epsilon; ///< of Bernstein coefficients, of the largest sample
+/// Noise of Bernstein coefficients, relative to the largest sample
+constexpr double noise = 4.0 * epsilon;
 
 /// Chebyshev points of the second kind on [0, 1], and the matrix from values there to Bernstein
 /// coefficients.
@@ -72,7 +73,7 @@ struct Piece {
   Piece after(double place) const { return split((place - from) / (to - from))[1]; }
 };
 
-/// Where the polynomial, positive at its start, is first seen to be negative.
+/// First point where the polynomial, positive at its start, is seen to be negative.
 std::optional<double> first_dip(const Piece& piece, int depth) {
   if ((piece.b.array() > 0.0).all())
     return std::nullopt;
@@ -153,7 +154,7 @@ private:
                         : std::optional(between(k, x[last - 1], value[last - 1], end_, at_end));
   }
 
-  /// What the polynomial finds in [start, stop] and the margin confirms.
+  /// Root of the polynomial in [start, stop] that the margin confirms.
   std::optional<Root> of_polynomial(std::size_t k, double start, double stop) {
     const auto values = values_.row(static_cast<Index>(k)).transpose();
     Piece piece{basis_.to_bernstein * values};
@@ -215,7 +216,7 @@ private:
   double t0_, t1_;
   std::vector<double> now_;
   MatrixX values_;   ///< (count, points)
-  double end_ = 1.0; ///< of what is still of interest, as part of the step
+  double end_ = 1.0; ///< end of the searched range, as part of the step
 };
 
 } // namespace

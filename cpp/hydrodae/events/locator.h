@@ -1,5 +1,5 @@
 #pragma once
-/// When does the first of several functions of time lose its sign inside a step?
+/// First root of several functions of time inside a step.
 
 #include <functional>
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-/// Where ropes and lines part inside a step: the event, and what holds from then on.
+/// Events at which ropes and lines part inside a step, and the laws afterwards.
 
 #include <memory>
 #include <vector>
@@ -13,8 +13,8 @@ namespace hydrodae::events {
 /// One margin for each law: the part of its breaking load that is left.
 class Partings : public Source {
 public:
-  /// Null: nothing in the system parts. Throws ModelError where a rope or line is loaded beyond
-  /// what it bears at the start, y.
+  /// Makes the partings of the system; null: nothing parts. Throws ModelError if a rope or line is
+  /// overloaded at the start, y.
   static std::unique_ptr<Partings> make(system::Regime& regime, const VectorX& y);
 
   std::size_t count() const override { return n_; }
@@ -24,7 +24,7 @@ public:
   /// is in the step.
   double found(const Root& root, const Interpolant& at) override;
 
-  /// At an event: lets part what has reached its breaking load at t [s].
+  /// Parts the laws that have reached their breaking load at an event at t [s].
   void part(double t, const VectorX& y);
 
 private:
@@ -35,12 +35,12 @@ private:
 
   system::Regime& s_;
   View view_;
-  std::size_t n_; ///< laws
+  std::size_t n_; ///< number of laws
   struct Sudden {
     std::size_t law;
     int place;
   };
-  std::vector<Sudden> sudden_; ///< what parts as its load begins, at the event found last
+  std::vector<Sudden> sudden_; ///< laws that part when their load begins, at the event found last
 };
 
 } // namespace hydrodae::events

@@ -1,6 +1,5 @@
 #pragma once
-/// Where ropes with friction begin or end to slip inside a step: the event, and what holds from
-/// then on.
+/// Events at which ropes with friction begin or end to slip inside a step.
 
 #include <memory>
 #include <vector>
@@ -13,7 +12,7 @@ namespace hydrodae::events {
 
 class Slips : public Source {
 public:
-  /// Null: nothing in the system rubs so.
+  /// Makes the slips of the system; null: no such friction.
   static std::unique_ptr<Slips> make(system::Regime& regime);
 
   std::size_t count() const override { return n_; }
@@ -33,7 +32,7 @@ private:
 
   system::Regime& s_;
   View view_;
-  std::size_t n_ = 0; ///< margins
+  std::size_t n_ = 0; ///< number of margins
   std::vector<double> held_, room_, rubs_;
 };
 

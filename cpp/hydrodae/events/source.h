@@ -1,6 +1,6 @@
 #pragma once
-/// What declares events: stops and dry friction, ropes that part or slip, kinks of laws, rates that
-/// controllers hear.
+/// Sources of events: stops and dry friction, ropes that part or slip, kinks of laws, zero
+/// crossings of rates.
 
 #include <functional>
 #include <optional>
@@ -32,7 +32,7 @@ public:
 };
 
 /// The first event in (t0, t1] of all sources, if any.
-/// @param degree  of the polynomial that `at` is
+/// @param degree  degree of the polynomial `at`
 std::optional<double> locate(std::span<Source* const> sources, double t0, double t1, int degree,
                              const Interpolant& at);
 

@@ -122,7 +122,7 @@ Switching::Motion Switching::motion(const Data& element) const {
           row.gradient.dot(system::joint_acceleration<double>(j, ws_.bodies)) + u.dot(T * u)};
 }
 
-/// Part of the full scales that the motion of its bodies takes.
+/// Motion of its bodies as part of the full scales.
 double Switching::motion_scale(const Data& element) const {
   const system::BodyData* body = system::moving_body(s_, system::joint_of(s_, element.motion));
   return body ? s_.motion_scale[body->group] : 1.0;
@@ -133,14 +133,14 @@ double Switching::load(const Data& element, const VectorX& y) const {
   return y[s_.lambda(s_.couplers[static_cast<std::size_t>(element.coupler)])];
 }
 
-/// Of an open stop from the bound that is nearer [m or rad].
+/// Gap of an open stop to the nearer bound [m or rad].
 double Switching::gap(std::size_t k) const {
   const Data& element = s_.switches[k];
   const double s = motion(element).value;
   return std::min(element.upper - s, s - element.lower);
 }
 
-/// How far the switch is from having to change, either way; negative when it is past that.
+/// Margins of a switch to its next change, in both directions; negative beyond it.
 void Switching::margins_of(std::size_t k, double* out) const {
   constexpr double never = 1.0;
   const Data& element = s_.switches[k];
@@ -153,7 +153,7 @@ void Switching::margins_of(std::size_t k, double* out) const {
       out[0] = never;
       return;
     }
-    // What has just come off leaves slowly, and the integrator's error may be larger than its gap.
+    // A stop that has just opened separates slowly; the integrator's error may exceed its gap.
     const Motion m = motion(element);
     const double scale = motion_scale(element);
     const auto left = [&](double gap, double rate) {

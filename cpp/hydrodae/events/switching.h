@@ -24,7 +24,7 @@ namespace hydrodae::events {
 
 class Switching : public events::Source {
 public:
-  /// Everything open. Throws ModelError when the start is beyond a stop.
+  /// Opens all switches. Throws ModelError if the start is beyond a stop.
   Switching(system::Regime& system, double rtol);
 
   /// Two margins for each switch: of an open stop its gaps, of what holds its load, of what slips
@@ -42,15 +42,14 @@ public:
   /// driven rows among it); nothing: the velocities have not jumped
   std::optional<double> settle(double t, VectorX& y, VectorX& yp);
 
-  /// What a stop or one-sided joint takes in one impact: the size of its impulse [N s or N m s],
-  /// and the energy lost [J].
+  /// Impact on a stop or one-sided joint: size of its impulse [N s or N m s], and energy lost [J].
   struct Impact {
     double time = 0.0, impulse = 0.0, energy_lost = 0.0;
   };
 
-  /// What a stop or one-sided joint has taken in its impacts so far.
+  /// Sums over the impacts of a stop or one-sided joint so far.
   struct Struck {
-    double impulse = 0.0;     ///< sum of their sizes [N s or N m s]
+    double impulse = 0.0;     ///< sum of the impulses [N s or N m s]
     double energy_lost = 0.0; ///< [J]
     std::vector<Impact> impacts;
   };
@@ -65,7 +64,7 @@ public:
     double value = 0.0, rate = 0.0, acceleration = 0.0;
   };
 
-  /// Of switch k, at any state in the present layout.
+  /// Motion of switch k, at any state in the present layout.
   Motion motion_of(std::size_t k, double t, const VectorX& y, const VectorX& yp) {
     unpack(t, y, yp);
     return motion(s_.switches[k]);
@@ -74,11 +73,12 @@ public:
   /// The stop that the last `settle` found struck first, if any.
   std::optional<std::size_t> hit() const { return hit_; }
 
-  /// The past, apart from the modes of the switches, which the regime holds.
+  /// State without the modes of the switches, which the regime holds.
   struct State {
-    std::vector<double> depth;  ///< beyond its bound, at which the last event left an open stop
+    /// Depth beyond its bound at which the last event left an open stop
+    std::vector<double> depth;
     std::vector<Struck> struck; ///< one for each switch
-    bool holding = false;       ///< does any switch hold?
+    bool holding = false;       ///< true: a switch holds
     long events = 0, recent = 0;
     double checked = 0.0; ///< [s]
     system::Turns turns;
@@ -93,10 +93,11 @@ private:
   using Mode = system::Regime::Mode;
   using Kind = Data::Kind;
 
-  static constexpr double touching = 1e-9; ///< gaps, of the length that counts as one
-  static constexpr double resting = 1e-9;  ///< rates and loads likewise
+  static constexpr double touching = 1e-9; ///< gap that counts as contact, in units of its length
+  /// Rate or load that counts as zero, in units of its scale
+  static constexpr double resting = 1e-9;
 
-  /// For the time of its life the equations are stabilised, whatever the integrator solves.
+  /// Switches to the stabilised equations during its lifetime, whatever the integrator solves.
   class Stabilised {
   public:
     explicit Stabilised(system::Regime& s) : s_(s), formulation_(s.formulation) {
@@ -119,7 +120,7 @@ private:
     explicit Present(const system::Regime& s)
         : pattern(system::find_pattern(s)), equations(s, pattern, 1.0), saddle(equations) {}
   };
-  struct Size { ///< what counts as one
+  struct Size { ///< units of a switch
     double length = 1.0, rate = 1.0, load = 1.0;
   };
 
@@ -146,8 +147,8 @@ private:
   const double rtol_;
   system::Workspace<double> ws_;
   std::vector<Size> size_;
-  State state_;             ///< but for the turns, which `ws_` has
-  double time_scale_ = 0.0; ///< shortest of the bodies [s]
+  State state_;             ///< state without the turns, which `ws_` has
+  double time_scale_ = 0.0; ///< shortest time scale of the bodies [s]
   VectorX y_, yp_;
   std::unique_ptr<Present> present_; ///< the rows that hold now
   std::optional<std::size_t> hit_;

@@ -1,4 +1,4 @@
-/// What a Switching does at an event: impacts, and the rows that hold from then on.
+/// Events of a Switching: impacts, and the rows that hold afterwards.
 
 #include <algorithm>
 #include <cmath>
@@ -11,11 +11,11 @@ namespace hydrodae::events {
 
 namespace {
 
-constexpr int rebound_halvings = 50; ///< of a rebound
+constexpr int rebound_halvings = 50; ///< halvings of a rebound
 
 } // namespace
 
-/// Is an open stop at one of its bounds?
+/// Returns whether an open stop is at one of its bounds.
 bool Switching::touches(std::size_t k) const {
   const Data& element = s_.switches[k];
   const double s = motion(element).value, gap = touching * size_[k].length;
@@ -233,7 +233,8 @@ std::optional<double> Switching::settle(double t, VectorX& y, VectorX& yp) {
     if (!correct(y, changes))
       break;
   }
-  for (std::size_t k = 0; k < size_.size(); ++k) // the projection may have moved it further in
+  // the projection may have increased the penetration
+  for (std::size_t k = 0; k < size_.size(); ++k)
     state_.depth[k] = s_.switches[k].kind == Kind::stop && s_.mode(s_.switches[k]) == Mode::open
                           ? std::max(0.0, -gap(k))
                           : 0.0;

@@ -13,7 +13,7 @@ struct Floating {
   double wetted_area = 0.0;            ///< [m2]
   double plane_area = 0.0;             ///< A [m2]
   double plane_x = 0.0, plane_y = 0.0; ///< integrals of x and y over the water plane [m3]
-  double plane_xx = 0.0, plane_xy = 0.0, plane_yy = 0.0; ///< of x^2, x y, y^2 [m4]
+  double plane_xx = 0.0, plane_xy = 0.0, plane_yy = 0.0; ///< integrals of x^2, x y, y^2 [m4]
 
   /// Buoyancy part of the stiffness about the body's origin, rows heave, roll, pitch: minus the
   /// derivative of the loads of still water by the pose [N/m, N, N m].
@@ -25,8 +25,8 @@ struct Floating {
 /// @param still a field without waves
 Floating floating(const Mesh& mesh, const WaveField& still, const Pose& pose, Workspace& work);
 
-/// The same in the reference pose of the body.
-/// @param origin of the body, above still water and in its axes
+/// Floating properties in the reference pose of the body.
+/// @param origin  origin of the body, above still water and in its axes
 Floating floating_in_reference_pose(const Mesh& mesh, const Vector3& origin);
 
 } // namespace hydrodae::hull

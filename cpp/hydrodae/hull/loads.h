@@ -16,8 +16,8 @@ namespace hydrodae::hull {
 
 /// Both parts are taken over the same wetted surface; above z = 0 only their sum has a meaning.
 struct Loads {
-  Vector6 hydrostatic = Vector6::Zero(); ///< of -rho g z
-  Vector6 dynamic = Vector6::Zero();     ///< of the pressure of the waves (Froude-Krylov)
+  Vector6 hydrostatic = Vector6::Zero(); ///< load of the pressure -rho g z
+  Vector6 dynamic = Vector6::Zero();     ///< load of the wave pressure (Froude-Krylov)
 };
 
 /// @param gradient if not null, gets the derivative of the whole load by the pose: columns

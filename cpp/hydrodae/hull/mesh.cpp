@@ -19,7 +19,7 @@ constexpr double no_area = 1e-12;
 
 struct Directed {
   int low, high, triangle;
-  bool forward; ///< from low to high
+  bool forward; ///< true: from low to high
 };
 
 std::string place(const Vertices& vertices, int i) {
@@ -177,7 +177,7 @@ Vertices sunk(const Mesh& mesh, const Shell& shell) {
   return out;
 }
 
-/// Does the line from p to q pass through a triangle?
+/// Returns whether the line from p to q passes through a triangle.
 bool pierces(const Mesh& mesh, const std::array<Vector3, 2>& line, int triangle) {
   const Vector3 a = corner(mesh, triangle, 0), b = corner(mesh, triangle, 1),
                 c = corner(mesh, triangle, 2), normal = (b - a).cross(c - a),
@@ -213,7 +213,7 @@ int pierced(const Mesh& mesh, const Shell& shell, const Vertices& sunk, const Sh
   return -1;
 }
 
-/// Water must reach each shell from outside, and no volume may count twice.
+/// Checks that water reaches each shell from outside, and that no volume counts twice.
 void check_shells(const Mesh& mesh, const std::vector<Shell>& shells) {
   for (const Shell& shell : shells)
     if (shell.volume == 0.0)

@@ -9,7 +9,8 @@ namespace hydrodae::hull {
 
 using Vertices = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>; ///< (n, 3) [m]
 using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;   ///< (m, 3)
-using Columns = Eigen::Array<double, Eigen::Dynamic, 3>; ///< (n, 3), each coordinate contiguous
+/// (n, 3) array with contiguous coordinates
+using Columns = Eigen::Array<double, Eigen::Dynamic, 3>;
 
 /// Vertices are nearer than that to their origin, so that all integrals over the surface are
 /// finite: the second moments are sums of fifth powers [m].
@@ -29,10 +30,11 @@ struct Mesh {
   int shells = 0;                     ///< closed surfaces that share no edge
   int degenerate = 0;                 ///< triangles without area; they carry no load
   double volume = 0.0;                ///< enclosed by the whole surface [m3]
-  double area = 0.0;                  ///< of the surface [m2]
+  double area = 0.0;                  ///< area of the surface [m2]
   double radius = 0.0;                ///< largest distance of a vertex from the body's origin [m]
-  Vector3 centroid = Vector3::Zero(); ///< of the enclosed volume [m]
-  Matrix3 spread = Matrix3::Zero();   ///< integral of x x^T over it, x from the centroid [m5]
+  Vector3 centroid = Vector3::Zero(); ///< centre of the enclosed volume [m]
+  /// Integral of x x^T over the volume, x relative to the centroid [m5]
+  Matrix3 spread = Matrix3::Zero();
 };
 
 /// Checks a surface and prepares it. Throws Error, naming the place, if
@@ -43,7 +45,7 @@ struct Mesh {
 /// - shells cross, or one lies inside another. Shells that touch may share a hundredth of the
 /// volume.
 ///
-/// @param origin of the body, in the axes of `vertices`; messages name places in these
+/// @param origin  origin of the body, in the axes of `vertices`; messages name places in these
 Mesh make_mesh(const Vertices& vertices, const Triangles& triangles,
                const Vector3& origin = Vector3::Zero());
 

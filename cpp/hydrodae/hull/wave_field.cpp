@@ -25,12 +25,12 @@ void write(const Block& values, int first, int size, double* list) {
   std::copy_n(values.data(), std::min(block_size, size - first), list + first);
 }
 
-/// eta and its slopes.
+/// Elevation eta and its slopes.
 struct Surface {
   Block eta = Block::Zero(), by_x = Block::Zero(), by_y = Block::Zero();
 };
 
-/// The height s at which the fields are taken, and its derivatives by x, y, z.
+/// Height s of the fields, and its derivatives by x, y, z.
 struct Height {
   Block s, by_x, by_y, by_z;
 };
@@ -99,7 +99,7 @@ WaveField::WaveField(const Water& water, const std::vector<Wave>& waves, double 
       throw Error("a wave needs a frequency and a wavenumber above zero");
     most += std::abs(w.amplitude);
     square += w.amplitude * w.amplitude;
-    // Beyond, e^{-kd} is less than what rounding leaves.
+    // Beyond that, e^{-kd} is below the rounding error.
     finite_ |= w.wavenumber * water.depth < 40.0;
   }
   // Wheeler's heights are farther from the origin by the elevation: of irregular waves less than 8

@@ -42,7 +42,7 @@ struct PointLists {
   const double *x = nullptr, *y = nullptr, *z = nullptr;
 };
 
-/// Where results go; a null gradient is not computed.
+/// Destinations of results; a null gradient is not computed.
 struct FieldLists {
   double* value = nullptr;                                  ///< [m] or [Pa]
   double *by_x = nullptr, *by_y = nullptr, *by_z = nullptr; ///< [-] or [Pa/m]
@@ -50,12 +50,12 @@ struct FieldLists {
 
 /// The waves at one instant, seen from one point, and scratch.
 struct WaveView {
-  double height = 0.0;                        ///< that the nodes' e^{+-ks} refer to [m]
+  double height = 0.0;                        ///< height that the nodes' e^{+-ks} refer to [m]
   double here = 0.0, most = 0.0, steep = 0.0; ///< eta at the origin, sum |A| [m], sum |A| k [-]
   Eigen::ArrayXXd waves;                      ///< (waves, 10): parts of the complex amplitudes ...
   Eigen::ArrayXXd nodes;                      ///< (nodes, 10): ... in the order of `Part`
-  Eigen::ArrayXd angle, cosine, sine;         ///< of the waves, padded to blocks
-  std::vector<double> cosines, sines;         ///< of a block of points, by node
+  Eigen::ArrayXd angle, cosine, sine;         ///< angles of the waves, padded to blocks
+  std::vector<double> cosines, sines;         ///< cosines and sines of a block of points, by node
 };
 
 class WaveField {
@@ -64,7 +64,7 @@ public:
   /// grows beyond.
   WaveField(const Water& water, const std::vector<Wave>& waves, double reach);
 
-  /// Still water.
+  /// Field of still water.
   explicit WaveField(const Water& water) : WaveField(water, {}, INFINITY) {}
 
   const Water& water() const { return water_; }
@@ -96,7 +96,7 @@ private:
                          const FieldLists& out) const;
   Water water_;
   double reach_;
-  bool finite_ = false; ///< does the bed show in any wave?
+  bool finite_ = false; ///< true: the bed affects a wave
   WaveNodes waves_;
 };
 

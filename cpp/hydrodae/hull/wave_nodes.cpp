@@ -7,7 +7,7 @@
 namespace hydrodae::hull {
 namespace {
 
-/// Of h |c| in one band: rounding grows by e^{2 h |c|}.
+/// Largest h |c| of one band: rounding grows by e^{2 h |c|}.
 constexpr double widest = 3.0;
 
 /// Nodes for an error of 1e-13; `width` is h |c|.

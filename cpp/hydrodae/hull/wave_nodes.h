@@ -30,7 +30,8 @@ struct Node {
   double k, kx, ky; ///< wavenumber and its parts along x and y [rad/m]
 };
 
-/// Waves first_wave .. + waves of a list and the nodes first_node .. + nodes that stand for them.
+/// Band of waves: waves first_wave .. + waves of a list, and the nodes first_node .. + nodes that
+/// represent them.
 struct Band {
   int first_wave, waves, first_node, nodes;
   MatrixX weights; ///< (waves, nodes): L_m(k_j); empty: the waves are the nodes

@@ -30,9 +30,9 @@ struct WetPoints {
   int size = 0;
   Columns x;                ///< (capacity, 3) [m]
   Columns weight;           ///< (capacity, 3) [m2], along the outward normal
-  Eigen::ArrayXd height;    ///< above still water [m]
+  Eigen::ArrayXd height;    ///< height above still water [m]
   Eigen::ArrayXd dynamic;   ///< dynamic pressure [Pa]
-  Columns dynamic_gradient; ///< by the place in the world [Pa/m]
+  Columns dynamic_gradient; ///< gradient by the place in the world [Pa/m]
 };
 
 /// A triangle of the clipped part whose corners slide; its three points follow each other.
@@ -48,17 +48,17 @@ struct Workspace {
 
   WaveView view;
   Columns place;                  ///< vertices relative to the body's origin, world axes [m]
-  Eigen::ArrayXd height;          ///< of the vertices above still water [m]
+  Eigen::ArrayXd height;          ///< heights of the vertices above still water [m]
   Columns surface;                ///< eta, d eta/dx, d eta/dy at the vertices
-  Columns areas;                  ///< of the triangles, world axes [m2]
-  std::vector<unsigned char> wet; ///< of each triangle: dry, wet or crossing (wet_surface.cpp)
+  Columns areas;                  ///< areas of the triangles, world axes [m2]
+  std::vector<unsigned char> wet; ///< side of each triangle: dry, wet or crossing (wet_surface.cpp)
   std::vector<int> needed;        ///< vertices where the elevation is needed
   std::vector<char> is_needed;
   Columns needed_place, needed_surface;
-  std::vector<int> crossing; ///< triangles
+  std::vector<int> crossing; ///< triangles that cross the surface
   WetPoints points;
-  std::vector<Facet> facets;   ///< only if slides are asked for
-  std::vector<Corner> corners; ///< that `facets` name
+  std::vector<Facet> facets;   ///< filled only if slides are requested
+  std::vector<Corner> corners; ///< corners of `facets`
 };
 
 /// Fills the points of a workspace, and with `slides` its facets. Pressures are not set.

@@ -1,5 +1,5 @@
 #pragma once
-/// Does the database hold what the coordinates that move need?
+/// Checks that the database covers the moving coordinates.
 
 #include <string>
 #include <string_view>
@@ -12,11 +12,11 @@ namespace hydrodae::hydro {
 const DatabaseBody* find_body(const Database& database, std::string_view name); ///< or null
 const MemoryFit* find_fit(const Database& database, std::string_view name);     ///< or null
 
-/// Those of `labels` that are not coordinates of the database.
+/// Labels that are not coordinates of the database.
 std::vector<std::string> missing_coordinates(const Database& database,
                                              const std::vector<std::string>& labels);
 
-/// Those of `labels` whose motion the fit does not answer to.
+/// Labels whose motion is no input of the fit.
 std::vector<std::string> missing_inputs(const MemoryFit& fit,
                                         const std::vector<std::string>& labels);
 
@@ -25,8 +25,8 @@ std::vector<std::string> missing_inputs(const MemoryFit& fit,
 const MemoryFit* smallest_covering_fit(const Database& database,
                                        const std::vector<std::string>& labels);
 
-/// Does the motion of one body load the other: by added mass, damping, a fit or a kernel that has
-/// been read?
+/// Returns whether the motion of one body loads the other: by added mass, damping, a fit or a
+/// kernel that has been read.
 bool are_coupled(const Database& database, const std::string& body, const std::string& other);
 
 } // namespace hydrodae::hydro

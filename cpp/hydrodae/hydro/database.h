@@ -31,7 +31,8 @@ struct DatabaseBody {
   Vector3 reference_point = Vector3::Zero(); ///< world point about which A, B and F are given [m]
   std::optional<Hydrostatics> hydrostatics;  ///< absent when the source does not hold it
   std::vector<std::string> modes;            ///< names of its coordinates beyond the rigid six
-  /// Of hydrostatics over the six and the modes (6 + n, 6 + n); of the six alone as above.
+  /// Hydrostatic stiffness of the six and the modes (6 + n, 6 + n), with the block of the six as
+  /// above.
   MatrixX mode_stiffness;
 };
 
@@ -51,7 +52,7 @@ struct MemoryFit {
 
 /// Radiation kernel on a uniform grid: f_rad(t) = -int_0^T K(tau) U(t - tau) dtau.
 struct RadiationKernel {
-  double step = 0.0;                ///< of the grid, which begins at 0 [s]
+  double step = 0.0;                ///< step of the grid, which begins at 0 [s]
   std::vector<std::string> inputs;  ///< coordinates that move, "<body>.<dof>"
   std::vector<std::string> outputs; ///< coordinates that are loaded, includes the inputs
   std::vector<MatrixX> values;      ///< per time K (n_outputs, n_inputs) [N/m, N, N m]

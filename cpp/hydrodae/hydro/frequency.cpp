@@ -9,7 +9,7 @@
 namespace hydrodae::hydro {
 namespace {
 
-constexpr double slack = 1e-9; ///< of frequencies, relative
+constexpr double slack = 1e-9; ///< relative tolerance of frequencies
 
 std::vector<double> as_list(const VectorX& values) {
   return {values.data(), values.data() + values.size()};

@@ -1,5 +1,5 @@
 #pragma once
-/// The tables of the database between their points.
+/// Interpolation of the database's tables.
 
 #include <vector>
 
@@ -9,11 +9,11 @@
 
 namespace hydrodae::hydro {
 
-/// Does the database reach to this frequency [rad/s]?
+/// Returns whether the database covers this frequency [rad/s].
 bool covers_frequency(const Database& database, double omega);
 
-/// Where the phase of the waves is taken off the forces on a body before these are interpolated:
-/// its centre of buoyancy, or the reference point, which may be far from it, if that is not known.
+/// Reference point of the wave phase in the interpolation of forces on a body: its centre of
+/// buoyancy or, if that is unknown, the reference point, which may be far away.
 Vector3 phase_point(const DatabaseBody& body);
 
 /// Excitation of some coordinates at any frequency and heading inside the tables. The phase at the
@@ -31,13 +31,13 @@ public:
   /// The frequency must be covered, the heading come from `headings().covered`.
   Eigen::VectorXcd operator()(double omega, double heading) const;
 
-  /// Without the phase, at the headings of the table, (nh, n_labels).
+  /// Excitation without the phase, at the headings of the table, (nh, n_labels).
   Eigen::MatrixXcd smooth(double omega) const { return smooth(omega, 0, std::ssize(rows_)); }
 
-  /// The same of some successive labels alone, (nh, count).
+  /// Excitation without the phase for successive labels, (nh, count).
   Eigen::MatrixXcd smooth(double omega, Eigen::Index first, Eigen::Index count) const;
 
-  /// Where the phase is taken off the forces of a label [m].
+  /// Reference point of the phase of a label [m].
   const Vector3& point(std::size_t label) const { return rows_[label].point; }
 
   const Headings& headings() const { return headings_; }
@@ -48,7 +48,7 @@ private:
   struct Row {
     bool known = false;
     Vector3 point = Vector3::Zero();
-    std::vector<CubicSpline> real, imaginary; ///< one a heading
+    std::vector<CubicSpline> real, imaginary; ///< splines, one for each heading
   };
   std::vector<Row> rows_;
 };

@@ -8,9 +8,9 @@
 namespace hydrodae::hydro {
 namespace {
 
-/// Of headings [rad]: a device that rests with its bow a hair off its reference feels the same.
+/// Tolerance of headings [rad]: a device at rest may deviate slightly from its reference.
 constexpr double beside_a_heading = 1e-4;
-constexpr double same_heading = 1e-6; ///< of the two ends of a circle [rad]
+constexpr double same_heading = 1e-6; ///< difference of the two ends of a circle [rad]
 
 /// Second derivatives, from the values, of the cubic spline through points x [rad]: periodic, of
 /// a full turn, or natural; (n, n).

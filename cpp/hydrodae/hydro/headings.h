@@ -1,5 +1,5 @@
 #pragma once
-/// Between the headings of a database.
+/// Interpolation between the headings of a database.
 
 #include <optional>
 #include <utility>
@@ -27,7 +27,7 @@ public:
   /// than 1e-4 rad outside. A table of one heading covers that one only.
   std::optional<double> covered(double heading) const;
 
-  /// What each heading of the table counts, (nh,), at a heading from `covered`.
+  /// Weights of the headings of the table, (nh,), at a heading from `covered`.
   VectorX weights(double heading) const;
 
   /// How the table tests itself: every other heading is left out (the ends of a fan stay), and the
@@ -56,11 +56,11 @@ private:
 
   VectorX heading_;
   bool round_ = false;
-  Eigen::Index count_ = 0; ///< different headings: without the last of a circle
+  Eigen::Index count_ = 0; ///< number of different headings, without the last one of a circle
   Eigen::Index order_ = 0;
   bool alternates_ = false; ///< cos(count b / 2) is one of the basis
   MatrixX harmonics_;       ///< coefficients of the basis from the forces (functions, count)
-  MatrixX rest_;            ///< what these leave (count, count)
+  MatrixX rest_;            ///< remainder after the harmonics (count, count)
   MatrixX misses_;
   MatrixX bending_; ///< second derivatives of the spline through it (count, count) [1/rad2]
 };

@@ -15,9 +15,10 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double equal = 1e-3;         ///< of the largest of a coordinate
+/// Largest difference, as part of the largest value of a coordinate
+constexpr double equal = 1e-3;
 constexpr double equal_damping = 5e-2; ///< mean over the frequencies, weighted by the damping
-constexpr double noise = 1e-5;         ///< of the largest of a unit
+constexpr double noise = 1e-5;         ///< noise, as part of the largest value of a unit
 constexpr double same_place = 1e-6;    ///< [m], [rad]
 constexpr double same_step = 1e-2;     ///< files round degrees, relative
 constexpr std::array<const char*, 6> dofs = {"surge", "sway", "heave", "roll", "pitch", "yaw"};
@@ -169,7 +170,7 @@ bool keeps_added_mass(const Database& db, const std::vector<Coordinate>& all, co
   return true;
 }
 
-/// Do the forces of all pairs of headings that are images agree, and is there one?
+/// Returns whether the forces of all pairs of headings that are images agree, and there is a pair.
 bool keeps_forces(const Database& db, const Image& image, const VectorX& off) {
   bool any = false;
   for (Eigen::Index h = 0; h < db.heading.size(); ++h)
@@ -198,7 +199,7 @@ Eigen::MatrixXcd turned(const std::vector<Coordinate>& all, const Image& quarter
   return out;
 }
 
-/// c_g = dw/dk [m/s].
+/// Group velocity c_g = dw/dk [m/s].
 double group_velocity(const Database& db, double omega, double k) {
   const double kh = k * db.water_depth;
   return 0.5 * omega / k * (1.0 + (kh < 50.0 ? 2.0 * kh / std::sinh(2.0 * kh) : 0.0));

@@ -15,7 +15,8 @@ namespace hydrodae::integrate {
 
 namespace {
 
-constexpr int fewest = 3, most_stages = 7; ///< of radau when it chooses: order 5, 9, 13
+/// Stage numbers of radau with variable order: order 5 to 13
+constexpr int fewest = 3, most_stages = 7;
 
 int stages_of(Family family, int order) {
   switch (family) {
@@ -44,7 +45,7 @@ public:
     use(stages_of(family_, options.order));
     if (project_)
       saddle_.emplace(e_);
-    // The first step leaves rounding of the multipliers, eps / h, below the tolerance.
+    // The first step keeps the rounding of the multipliers, eps / h, below the tolerance.
     state_.h = fixed_ ? options.step
                       : std::min(max_step_, 3.0 * linalg::first_step(system, options.rtol, y, yp));
     state_.reach = t0 + state_.h;
@@ -70,24 +71,24 @@ private:
   [[noreturn]] void fail(Reason reason, const std::string& what);
 
   const system::Regime& s_;
-  const system::Pattern pattern_; ///< of Newton's matrix
+  const system::Pattern pattern_; ///< pattern of Newton's matrix
   linalg::Equations e_;
   const Family family_;
   const bool fixed_, chooses_order_, project_;
   const double max_step_;
-  double end_ = 0.0;                          ///< of the step in the making [s]
-  std::optional<linalg::SaddlePoint> saddle_; ///< where the end of a step is projected
+  double end_ = 0.0;                          ///< latest end of the present step [s]
+  std::optional<linalg::SaddlePoint> saddle_; ///< matrix for the projection of the end of a step
   linalg::ProgressGuard guard_;
-  std::map<int, std::unique_ptr<StageNewton>> methods_; ///< by number of stages
+  std::map<int, std::unique_ptr<StageNewton>> methods_; ///< Newton's iterations by number of stages
   StageNewton* newton_ = nullptr;
-  CollocationState state_;          ///< but for what its parts keep
-  StageSolver::Start now_, before_; ///< at the end of the last step; before it, where it may fail
+  CollocationState state_;          ///< state without that of the parts below
+  StageSolver::Start now_, before_; ///< ends of the last step and the one before, for a failed step
   StagePolynomial last_;
   StageSolver solver_;
-  MatrixX rates_; ///< of the stages
+  MatrixX rates_; ///< rates of the stages
   const DrivenRows driven_;
   VectorX error_, v_, guess_;
-  VectorX nodes_;    ///< of the interpolant, on [0, 1]
+  VectorX nodes_;    ///< nodes of the interpolant on [0, 1]
   double gap_ = 1.0; ///< see `gap`
 };
 
@@ -104,7 +105,7 @@ void Collocation::use(int stages) {
     nodes_[stages] = 0.0;
   }
   state_.since_change = state_.slack = 0;
-  state_.last_h = 0.0; // its error was another method's
+  state_.last_h = 0.0; // the last error belongs to another method
 }
 
 void Collocation::fail(Reason reason, const std::string& what) {
@@ -116,11 +117,11 @@ void Collocation::fail(Reason reason, const std::string& what) {
                              e_.diagnosis(now_.t, now_.y, now_.yp)});
 }
 
-/// Local error in units of the tolerance: (J + B / (gamma0 h))^-1 (B v + f(t0, y0)),
-/// v = sum error_i Z_i / (gamma0 h); once more from y0 + error where it would reject.
+/// Local error in units of the tolerance: (J + B / (gamma0 h))^-1 (B v + f(t0, y0)) with v = sum
+/// error_i Z_i / (gamma0 h); a second time from y0 + error if it would reject the step.
 double Collocation::error(double h, bool refine) {
   const RungeKutta& rk = newton_->rk();
-  if (solver_.was_full()) { // start or end may be singular
+  if (solver_.was_full()) { // the start or end may be singular
     const int middle = rk.stages / 2;
     MatrixX rate;
     newton_->rates(h, solver_.stages(), rate);
@@ -134,7 +135,7 @@ double Collocation::error(double h, bool refine) {
   for (int pass = 0; pass < (refine ? 2 : 1); ++pass) {
     if (!e_.residual(now_.t, at, v_, error_))
       return HUGE_VAL;
-    // The start meets the constraints: what shows of them is left of Newton's iteration.
+    // The start meets the constraints: their residual is an error of Newton's iteration.
     if (s_.formulation != system::Formulation::index_1)
       error_.tail(s_.n - s_.lambda0).setZero();
     newton_->solve_real(error_);
@@ -147,8 +148,7 @@ double Collocation::error(double h, bool refine) {
   return std::max(size, 1e-10);
 }
 
-/// What the polynomial of the step leaves of the driven constraints between its stages, in units of
-/// the tolerance.
+/// Error of the polynomial in driven constraints between its stages, in units of the tolerance.
 double Collocation::drive_error(double h) {
   const RungeKutta& rk = newton_->rk();
   double size = 0.0;
@@ -184,7 +184,7 @@ void Collocation::accept(double h) {
         (!saddle_->accelerations(now_.t, now_.y, now_.yp) || !saddle_->project(now_.t, now_.y) ||
          !saddle_->accelerations(now_.t, now_.y, now_.yp))) {
       now_ = before_;
-      last_.clear(); // there is no such step
+      last_.clear(); // no last step to extrapolate
       fail(Reason::drift, "the constraints cannot be met at the end of the step");
     }
   }
@@ -197,10 +197,9 @@ void Collocation::accept(double h) {
   e_.statistics.last_order = rk.order;
 }
 
-/// More stages where Newton contracts at once (Hairer and Wanner 1999), fewer where for long Newton
-/// limits the step and the error, here of the last step, does not: two stages change it about 300
-/// times. A step that was cut, by waves or an end, needs no more stages, and fewer where the error
-/// leaves room.
+/// Chooses the number of stages. It rises if Newton contracts at once (Hairer and Wanner 1999). It
+/// falls if Newton, not the error, limits the steps for long; two stages change the error about 300
+/// times. A step cut short by waves or an end needs no more stages, and fewer if the error allows.
 void Collocation::choose_order(double error, bool cut) {
   constexpr double up = 0.02, down = 0.1, little = 1e-3;
   if (!chooses_order_ || solver_.was_full())
@@ -210,16 +209,17 @@ void Collocation::choose_order(double error, bool cut) {
   const int stages = newton_->rk().stages;
   if (solver_.contraction() <= up && stages < most_stages && state_.since_change >= 10 && !cut)
     use(stages + 2);
-  else if (state_.slack >= 20 && stages > fewest) // passing a singular pose takes fewer steps
+  // larger steps pass a singular pose in fewer steps
+  else if (state_.slack >= 20 && stages > fewest)
     use(stages - 2);
 }
 
 double Collocation::step(double end, double bound) {
   constexpr double safety = 0.9, most_growth = 5.0, most_cut = 0.125;
-  constexpr double newton_cut = 0.4, aim = 0.25; // of the step; of Newton's contraction
+  constexpr double newton_cut = 0.4, aim = 0.25; // growth of the step; aim of Newton's contraction
   end_ = end;
   bool rejected = last_.empty();
-  double hopeless = HUGE_VAL; // step from which on simplified Newton fails
+  double hopeless = HUGE_VAL; // shortest step for which simplified Newton fails
   for (;;) {
     const double left = end_ - now_.t, bounded = fixed_ ? HUGE_VAL : bound - now_.t,
                  wanted = state_.h;
@@ -230,8 +230,9 @@ double Collocation::step(double end, double bound) {
            "Newton's iteration does not converge, or the local error stays too large, however "
            "short the step");
     e_.weights(now_.y, now_.w);
-    // Shorter steps help simplified Newton. Near a singular pose they would shrink without end:
-    // full Newton takes the step that the error allows, at the cost of about 2 s of the short ones.
+    // Shorter steps help simplified Newton, but shrink without end near a singular pose. Full
+    // Newton there takes the step that the error allows, at the cost of about 2 s of the short
+    // ones.
     const double allowed = std::min({state_.reach, end_, fixed_ ? end_ : bound}) - now_.t;
     const double shortest = fixed_ ? 0.0 : allowed / (2.0 * newton_->rk().stages);
     bool solved = h >= shortest && h < hopeless && solver_.simplified(h);
@@ -278,18 +279,18 @@ double Collocation::step(double end, double bound) {
                                        most_cut, most_growth));
     if (rejected)
       grow = std::min(grow, 1.0);
-    if (!solver_.was_full()) // the contraction goes with the square of the step
+    if (!solver_.was_full()) // the contraction grows with the square of the step
       grow = std::min(grow, std::max(std::sqrt(aim / solver_.contraction()), 0.3));
     state_.last_h = h;
     state_.last_error = std::max(err, 1e-2);
     accept(h);
     state_.reach = std::max(state_.reach, next_reach);
     if (!(grow >= 1.0 && grow <= 1.2 &&
-          solver_.contraction() <= 1e-3)) // else the matrices serve again
+          solver_.contraction() <= 1e-3)) // otherwise the matrices are used again
       state_.h = std::min(max_step_, h * grow);
     else
       state_.h = h;
-    if (h == left) // a step that was cut says nothing against longer ones
+    if (h == left) // a shortened step is no evidence against longer ones
       state_.h = std::max(state_.h, wanted);
     choose_order(err, h < wanted);
     guard_.after_step(now_.t, [&] { return e_.diagnosis(now_.t, now_.y, now_.yp); });
@@ -297,7 +298,7 @@ double Collocation::step(double end, double bound) {
   }
 }
 
-/// The number of stages stays; more are tried where there is time between two restarts.
+/// Restarts with the same number of stages; more are tried if there is time between two restarts.
 bool Collocation::restart(double t, const VectorX& y, const VectorX& yp) {
   now_.t = t;
   now_.y = y;
@@ -338,7 +339,7 @@ Memory Collocation::state() const {
 void Collocation::set(const Memory& state) {
   const auto& from = memory_of<CollocationState>(state);
   last_.set(from.polynomial);
-  if (last_.stages() > 0) { // the last step may have been one of another order
+  if (last_.stages() > 0) { // the last step may have had another order
     use(last_.stages());
     last_.set_method(newton_->rk());
   }

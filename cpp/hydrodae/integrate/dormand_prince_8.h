@@ -259,7 +259,7 @@ inline constexpr double rk8_extra_a[] = {0.056167502283047954,
                                          -9.15095847217987,
                                          0.0};
 
-/// (3,) their nodes
+/// (3,) nodes of the further stages
 inline constexpr double rk8_extra_c[] = {0.1, 0.2, 0.7777777777777778};
 
 /// (4, 16) interpolant

@@ -1,6 +1,6 @@
 #pragma once
-/// Constraints that drives move, between the stages of a step. At the stages they hold, whatever
-/// the step: no estimate made of stages sees them.
+/// Driven constraints between the stages of a step. They hold at the stages for any step length, so
+/// that error estimates from stages are blind to them.
 
 #include <utility>
 #include <vector>
@@ -12,17 +12,17 @@ namespace hydrodae::integrate {
 
 class DrivenRows {
 public:
-  /// Those that drives move, and those of joints that pass their motion on.
+  /// Rows that drives move, and rows of joints that transmit their motion.
   explicit DrivenRows(const system::Regime& system);
 
   bool empty() const { return rows_.empty(); }
 
-  /// The largest gap of a residual (n,), in units of the motion of its group.
+  /// Largest gap in a residual (n,), in units of the motion of its group.
   double largest(const VectorX& residual) const;
 
 private:
   const system::Regime& s_;
-  std::vector<std::pair<Index, int>> rows_; ///< with their groups
+  std::vector<std::pair<Index, int>> rows_; ///< rows with their groups
 };
 
 } // namespace hydrodae::integrate

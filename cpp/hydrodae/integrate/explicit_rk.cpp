@@ -26,7 +26,8 @@ struct Pair {
 const Pair order_5{6, 5, tableaux::rk5_a, tableaux::rk5_b, tableaux::rk5_c};
 const Pair order_8{12, 8, tableaux::rk8_a, tableaux::rk8_b, tableaux::rk8_c};
 
-/// Rates f(t, y) of y = [q | u | z] by the saddle-point matrix, whose multipliers follow from y:
+/// Integrates y = [q | u | z] with the rates f(t, y) from the saddle-point matrix; multipliers
+/// follow from y:
 ///
 ///   k_i = f(t + c_i h, y + h sum_j a_ij k_j),     y_1 = P(y + h sum_i b_i k_i)
 ///
@@ -43,8 +44,8 @@ public:
         w_(system.n), k_(n_, 17) {
     e_.accept(t_, y_, yp_);
     y0_ = stage_ = stage_yp_ = trial_ = trial_yp_ = inside_ = inside_yp_ = y_;
-    // A growth of the rounding error by 1e3 at most: the step is not the smallest that the method
-    // could make, as it is for one of order 1.
+    // The step lets rounding errors grow by at most 1e3: it is not the smallest possible one, as it
+    // is for a method of order 1.
     state_.h = fixed_ ? options.step
                       : std::min(max_step_, linalg::first_step(system, options.rtol, y, yp) *
                                                 std::pow(options.rtol, 0.2 - 0.5));
@@ -80,7 +81,7 @@ public:
   }
 
 private:
-  /// Power of the error that bounds the next step.
+  /// Exponent of the error that controls the next step.
   double power() const { return 1.0 / (pair_.order == 5 ? 5.0 : 8.0); }
   void set_stage(const VectorX& start, double h, int stages, std::span<const double> a);
   bool try_step(double h);
@@ -97,20 +98,21 @@ private:
   const Pair& pair_;
   const bool fixed_;
   const double max_step_;
-  const bool idle_reactions_; ///< no multiplier does work, and no unknown is found with them
+  const bool idle_reactions_; ///< no multiplier does work or determines an unknown
   const system::Pattern& full_pattern_;
   linalg::Equations e_;
   linalg::SaddlePoint saddle_;
   const Index n_; ///< number of q, u and z, which the method integrates
   linalg::ProgressGuard guard_;
   double t_ = 0.0, t0_ = 0.0, done_ = 0.0; ///< `done_`: length of the last step
-  VectorX y_, yp_, y0_;                    ///< at the end of the last step, and y at its start
+  /// y, y' at the end of the last step, and y at its start
+  VectorX y_, yp_, y0_;
   VectorX stage_, stage_yp_, trial_, trial_yp_, inside_, inside_yp_, w_;
   MatrixX k_;     ///< rates of the stages, one column each
   MatrixX dense_; ///< coefficients of the interpolant of order 7
   bool extended_ = false;
-  ExplicitState state_;    ///< but for the last step and the guard, which others keep
-  double rest_step_ = 0.0; ///< the longest stable one of this rest, 0: not at rest
+  ExplicitState state_;    ///< state without the last step and the guard
+  double rest_step_ = 0.0; ///< longest stable step of this rest; 0: not at rest
 };
 
 void ExplicitRk::fail(Reason reason, const std::string& what) {
@@ -123,21 +125,21 @@ void ExplicitRk::fail(Reason reason, const std::string& what) {
                          e_.diagnosis(t_, y_, yp_)});
 }
 
-/// stage_ = start + h sum_j a_j k_j
+/// Sets stage_ = start + h sum_j a_j k_j.
 void ExplicitRk::set_stage(const VectorX& start, double h, int stages, std::span<const double> a) {
   stage_.head(n_) = start.head(n_);
   add_rates(h, a.first(static_cast<std::size_t>(stages)));
 }
 
-/// stage_ += h sum_j weights_j k_j
+/// Adds h sum_j weights_j k_j to stage_.
 void ExplicitRk::add_rates(double h, std::span<const double> weights) {
   for (std::size_t j = 0; j < weights.size(); ++j)
     if (weights[j] != 0.0)
       stage_.head(n_) += h * weights[j] * k_.col(static_cast<Index>(j));
 }
 
-/// Stages k_i, and trial_ = y + h sum_i b_i k_i before the projection. False when no finite
-/// accelerations exist.
+/// Computes the stages k_i, and trial_ = y + h sum_i b_i k_i before the projection. Returns false
+/// if no finite accelerations exist.
 bool ExplicitRk::try_step(double h) {
   const int s = pair_.stages;
   k_.col(0) = yp_.head(n_);
@@ -152,8 +154,8 @@ bool ExplicitRk::try_step(double h) {
   return pair_.order == 8 || find_end(h);
 }
 
-/// The rates where the step ends. Those of order 8 are found once the end is on the constraints,
-/// since its estimate of the error does without them.
+/// Computes the rates at the end of the step. Order 8 needs them only after the projection, because
+/// its error estimate does not use them.
 bool ExplicitRk::find_end(double h) {
   if (!saddle_.accelerations(t_ + h, trial_, trial_yp_))
     return false;
@@ -161,8 +163,8 @@ bool ExplicitRk::find_end(double h) {
   return true;
 }
 
-/// Local error in units of the tolerance. Of the two estimates of the method of order 8: Hairer,
-/// Norsett and Wanner, section II.10.
+/// Local error in units of the tolerance; for order 8 from both estimates (Hairer, Norsett and
+/// Wanner, section II.10).
 double ExplicitRk::error(double h) {
   e_.weights(y_, w_);
   auto size = [&](std::span<const double> weights) {
@@ -176,22 +178,22 @@ double ExplicitRk::error(double h) {
   return both > 0.0 ? five * five / both : 0.0;
 }
 
-/// Do the accelerations at the end of the step agree with those of the last stage, which lies there
-/// as well? The estimate of order 8 knows the first alone: a stop that the stages miss and the end
-/// hits would not be seen.
+/// Returns whether the accelerations at the end of the step agree with those of the last stage at
+/// the same time. The estimate of order 8 uses only the latter: it would miss a stop that the end
+/// hits and the stages do not.
 bool ExplicitRk::is_smooth(double h) {
   if (pair_.order == 5)
-    return true; // its estimate knows the end
+    return true; // the estimate of order 5 uses the end
   stage_.setZero();
   stage_.head(n_) = h * (k_.col(pair_.stages) - k_.col(pair_.stages - 1));
   return ExplicitSteps::is_usual(e_.norm(w_, stage_), state_.usual_jump);
 }
 
-/// Where nothing moves no error bounds the steps, and beyond the stability of the method they make
-/// a motion from rounding, the faster the longer they are: its bounds are about 5 (order 8) and 2.5
-/// (order 5) over the fastest rate, found once in each rest.
+/// Longest step at rest. No error bounds the steps there, and steps beyond the stability limit
+/// amplify rounding into motion. The limit is about 5 (order 8) or 2.5 (order 5) over the fastest
+/// rate, which is found once in each rest.
 double ExplicitRk::longest_at_rest(double err) {
-  constexpr double nothing = 1e-6; // of the tolerance
+  constexpr double nothing = 1e-6; // part of the tolerance
   if (err >= nothing) {
     rest_step_ = 0.0;
     return HUGE_VAL;
@@ -203,7 +205,7 @@ double ExplicitRk::longest_at_rest(double err) {
   return rest_step_;
 }
 
-/// The step of length h to the time t ends in trial_.
+/// Accepts the step of length h to time t, which ends in trial_.
 void ExplicitRk::accept(double h, double t) {
   y0_ = y_;
   y_ = trial_;
@@ -224,7 +226,7 @@ double ExplicitRk::step(double end, double bound) {
     const double left = end - t_, wanted = state_.h;
     const double allowed = fixed_ ? left : std::min(left, bound - t_);
     double h = std::min(state_.h, allowed);
-    if (allowed - h < 0.1 * h) // no sliver of a step behind it
+    if (allowed - h < 0.1 * h) // avoids a tiny next step
       h = allowed;
     if (h < 1e-13 * std::max(std::abs(t_), e_.time_scale()) && h < left)
       fail(Reason::step, failed ? "the local error stays too large however short the step"
@@ -259,7 +261,7 @@ double ExplicitRk::step(double end, double bound) {
     if (!fixed_) {
       state_.h = h * ExplicitSteps::growth(err, power(), failed ? 1.0 : ExplicitSteps::most_growth,
                                            state_.last_error);
-      if (h == left) // a step that was cut says nothing against longer ones
+      if (h == left) // a shortened step is no evidence against longer ones
         state_.h = std::max(state_.h, wanted);
       state_.h = std::min({state_.h, max_step_, longest_at_rest(err)});
     }
@@ -281,7 +283,7 @@ bool ExplicitRk::restart(double t, const VectorX& y, const VectorX& yp) {
   return saddle_.accelerations(t_, y_, yp_);
 }
 
-/// The three further stages of the interpolant of order 7, and its coefficients.
+/// Computes the three further stages of the interpolant of order 7, and its coefficients.
 void ExplicitRk::extend() {
   if (extended_ || pair_.order == 5)
     return;
@@ -292,7 +294,8 @@ void ExplicitRk::extend() {
       fail(Reason::not_finite, "no finite accelerations inside the step");
     k_.col(13 + i) = stage_yp_.head(n_);
   }
-  // f_0 = dy, f_1 = h k_0 - dy, f_2 = 2 dy - h (k_end + k_0), f_3.. = h D k; nested in x, 1 - x.
+  // Columns f_0 = dy, f_1 = h k_0 - dy, f_2 = 2 dy - h (k_end + k_0), f_3.. = h D k; nested in x, 1
+  // - x.
   const auto dy = y_.head(n_) - y0_.head(n_);
   dense_.setZero(n_, 7);
   dense_.col(0) = dy;
@@ -305,9 +308,9 @@ void ExplicitRk::extend() {
   extended_ = true;
 }
 
-/// inside_ and its rates at x = (t - t0) / h of the last step, on the polynomial.
+/// Sets inside_ and its rates at x = (t - t0) / h of the last step, on the polynomial.
 void ExplicitRk::follow_polynomial(double x) {
-  Eigen::Matrix<double, 7, 1> value, slope; // factors of the columns, slope = d value / dx
+  Eigen::Matrix<double, 7, 1> value, slope; // factors of the columns; slope = d value / dx
   inside_ = y0_;
   inside_yp_ = yp_;
   if (pair_.order == 5) {
@@ -372,7 +375,7 @@ void ExplicitRk::interpolate(double t, VectorX& y, VectorX& yp) {
     return;
   }
   follow_polynomial((t - t0_) / done_);
-  // The polynomial misses the joints by its error, which `close` takes out of them.
+  // The polynomial misses the joints by its error, which `close` removes.
   if (!saddle_.accelerations(t, inside_, inside_yp_))
     fail(Reason::not_finite, "no finite accelerations inside the step");
   saddle_.close(t, inside_);

@@ -1,7 +1,7 @@
 #pragma once
-/// Explicit Runge-Kutta on the accelerations, projected after every step onto both levels of the
-/// constraints (Hairer and Wanner, Solving ODEs II (1996), section VII.2): the cheapest digits for
-/// scenes without stiff springs, and at ease in singular poses.
+/// Explicit Runge-Kutta method on the accelerations, projected after every step onto both levels of
+/// the constraints (Hairer and Wanner, Solving ODEs II (1996), section VII.2). It is the cheapest
+/// method for scenes without stiff springs, and robust in singular poses.
 
 #include "hydrodae/integrate/integrator.h"
 

@@ -14,9 +14,10 @@ namespace hydrodae::integrate {
 
 namespace {
 
-constexpr double newton_tolerance = 1e-8; ///< the step alone decides on the error
+/// Small tolerance of Newton: the step length alone determines the error
+constexpr double newton_tolerance = 1e-8;
 
-/// With x = (u, z), a the algorithm's own accelerations, n the step:
+/// Method with x = (u, z), the algorithm's own accelerations a, and the step number n:
 ///
 ///   q_{n+1} = q_n o exp(h dq),  dq = u_n + h (1/2 - beta) a_n + h beta state_.a{n+1} + G^T mu
 ///   x_{n+1} = x_n + h (1 - gamma) a_n + h gamma state_.a{n+1}
@@ -72,12 +73,12 @@ private:
   double t_ = 0.0, h_;
   Index n_x_;
   VectorX y_, yp_, trial_, trial_yp_, residual_, w_, a_new_;
-  AlphaState state_;      ///< but for the last step, which the statistics have
-  VectorX velocity_;      ///< G^T mu of the last residual, tangent
-  double factored_ = 0.0; ///< step of the matrix at hand [s]; 0: none
+  AlphaState state_;      ///< state without the last step, which the statistics have
+  VectorX velocity_;      ///< velocity G^T mu of the last residual, tangent
+  double factored_ = 0.0; ///< step of the present matrix [s]; 0: none
 };
 
-/// From the rows of q, whose last part is E(q) v, the tangent velocity v of each body:
+/// Visits the tangent velocity v of each body in the rows of q, whose last part is E(q) v:
 /// visit(place in (n_u,), v_k).
 template <class Visit>
 void GeneralizedAlpha::each_tangent(const VectorX& rows, Visit&& visit) const {
@@ -106,7 +107,7 @@ void GeneralizedAlpha::fail(Reason reason, const std::string& what) {
                          e_.diagnosis(t_, y_, yp_)});
 }
 
-/// trial_ and its rates from a_new_, mu and the last G^T mu.
+/// Updates trial_ and its rates from a_new_, mu and the last G^T mu.
 void GeneralizedAlpha::update(double h) {
   trial_.segment(s_.u0, n_x_) =
       y_.segment(s_.u0, n_x_) + h * ((1.0 - gamma_) * state_.a + gamma_ * a_new_);
@@ -129,7 +130,7 @@ bool GeneralizedAlpha::refresh(double t, double h) {
   return newton_matrix_.factorise(e_.parts, {by_x, by_q, by_x});
 }
 
-/// @param full  with the Jacobian of each iteration, where the first steps may lead away
+/// @param full  true: a new Jacobian in each iteration, because the first steps may diverge
 bool GeneralizedAlpha::newton(double t, double h, bool full) {
   constexpr int stale = 4;
   const int most = full ? 30 : 12;
@@ -147,7 +148,7 @@ bool GeneralizedAlpha::newton(double t, double h, bool full) {
     newton_matrix_.solve(residual_.data());
     ++e_.statistics.newton_iterations;
     a_new_ -= residual_.segment(s_.u0, n_x_) / (h * gamma_);
-    // What the increment of mu adds to the velocity of q: c_q dq - du.
+    // Contribution of the increment of mu to the velocity of q: c_q dq - du.
     const double by_q = gamma_ / (beta_ * h), share = beta_ / gamma_;
     each_tangent(residual_, [&](Index k, double row) {
       velocity_[k] -= share * (by_q * row - residual_[s_.u0 + k]);
@@ -161,7 +162,7 @@ bool GeneralizedAlpha::newton(double t, double h, bool full) {
     if (size * std::min(1.0, rate / std::max(1.0 - rate, 0.1)) <= accuracy && i > 0) {
       update(h);
       if (i >= stale)
-        factored_ = 0.0; // a new Jacobian at the next step
+        factored_ = 0.0; // new Jacobian at the next step
       return true;
     }
     if (i > 1 && rate > 0.9 && !full)
@@ -181,7 +182,8 @@ double GeneralizedAlpha::step(double end, double) {
     trial_ = y_;
     trial_yp_ = yp_;
     trial_yp_.head(s_.n_q).setZero();
-    a_new_ = (yp_.segment(s_.u0, n_x_) - alpha_m_ * state_.a) / (1.0 - alpha_m_); // x'_{n+1} = x'_n
+    // from x'_{n+1} = x'_n
+    a_new_ = (yp_.segment(s_.u0, n_x_) - alpha_m_ * state_.a) / (1.0 - alpha_m_);
     velocity_.setZero();
     trial_.segment(s_.mu0, s_.n_mu).setZero();
     update(h);
@@ -191,7 +193,8 @@ double GeneralizedAlpha::step(double end, double) {
     if (!done)
       ++e_.statistics.convergence_failures;
   }
-  if (!done && trial_.allFinite() && refresh(t_ + h, h)) { // with the Jacobian of where it got to
+  // again with the Jacobian at the point reached
+  if (!done && trial_.allFinite() && refresh(t_ + h, h)) {
     done = newton(t_ + h, h, true);
     factored_ = 0.0;
   }
@@ -214,7 +217,7 @@ double GeneralizedAlpha::step(double end, double) {
   return t_;
 }
 
-/// Cubic in q, u, z from values and rates at both ends; reactions linear.
+/// Interpolates q, u, z by a cubic from values and rates at both ends, and reactions linearly.
 void GeneralizedAlpha::interpolate(double t, VectorX& y, VectorX& yp) {
   y = y_;
   yp = yp_;

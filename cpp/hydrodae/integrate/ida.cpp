@@ -20,11 +20,11 @@ namespace hydrodae::integrate {
 
 namespace {
 
-/// Of the tolerance asked for: what BDF adds up over its many steps is then no more than what the
-/// one-step methods do at equal rtol (measured on spinning and striking bodies).
+/// Part of the requested tolerance. The accumulated error of the many BDF steps is then at most
+/// that of one-step methods at equal rtol (measured on spinning and striking bodies).
 constexpr double share = 0.5;
 
-/// The name of a flag; SUNDIALS hands over its memory.
+/// Name of a SUNDIALS flag; SUNDIALS allocates the string.
 std::string flag_name(int flag) {
   const std::unique_ptr<char, decltype(&std::free)> name(IDAGetReturnFlagName(flag), &std::free);
   return name.get();
@@ -59,12 +59,12 @@ struct IdaDeleter {
 template <class Handle, class Deleter>
 using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Deleter>;
 
-/// Without a handler of errors: our own messages say more.
+/// Context without an error handler: the messages here contain more.
 SUNContext make_context() {
   SUNContext context = nullptr;
 #if SUNDIALS_VERSION_MAJOR < 7
   const int failed = SUNContext_Create(nullptr, &context);
-#else // one handler for all that a context owns; in version 6 each solver has its own
+#else // one handler for all objects of a context; in version 6 each solver has its own
   const int failed =
       SUNContext_Create(SUN_COMM_NULL, &context) || SUNContext_ClearErrHandlers(context);
 #endif
@@ -73,8 +73,8 @@ SUNContext make_context() {
   return context;
 }
 
-/// In place of SUNDIALS' norm over the unknowns whose `id` is positive: `id` numbers the groups of
-/// bodies, and the norm is that of the group where it is largest.
+/// Norm in place of that of SUNDIALS over unknowns with positive `id`: `id` numbers the groups of
+/// bodies, and the norm is the largest one of a group.
 double norm_by_group(N_Vector x, N_Vector w, N_Vector id) {
   thread_local std::vector<double> sums, counts;
   sums.assign(sums.size(), 0.0);
@@ -128,35 +128,36 @@ public:
 
 private:
   const system::Regime& system;
-  const system::Pattern pattern; ///< of Newton's matrix
+  const system::Pattern pattern; ///< pattern of Newton's matrix
   double rtol;
   linalg::Equations equations;
   IdaMatrix newton;
-  VectorX good, good_rate; ///< at the last accepted step
+  VectorX good, good_rate; ///< y, y' at the last accepted step
   double t_good = 0.0;
   int restarts = 0;
-  linalg::Statistics before;  ///< of the starts before the last
-  VectorX now, now_rate, out; ///< copies for the calls that take our vectors
-  VectorX lost, lost_rate;    ///< where the residual was no number last
+  linalg::Statistics before;  ///< statistics of earlier starts
+  VectorX now, now_rate, out; ///< copies for functions that take Eigen vectors
+  VectorX lost, lost_rate;    ///< point where the residual last was not a number
   double lost_time = -INFINITY;
   double t_ = 0.0, end_time = 0.0;
   double first = 0.0;        ///< first step [s]
-  double longest = INFINITY; ///< step [s]
-  double time_scale = 0.0;   ///< longest of the bodies [s]
-  double rounding = 1e3;     ///< of the multipliers, in units of the machine epsilon
+  double longest = INFINITY; ///< longest step [s]
+  double time_scale = 0.0;   ///< longest time scale of the bodies [s]
+  double rounding = 1e3;     ///< rounding of the multipliers, in units of the machine epsilon
   linalg::ProgressGuard guard;
 
   Owned<SUNContext, ContextDeleter> context{make_context()};
   Owned<N_Vector, VectorDeleter> y, yp, id, scratch;
   Owned<SUNMatrix, MatrixDeleter> matrix;
   Owned<SUNLinearSolver, SolverDeleter> linear_solver;
-  std::unique_ptr<void, IdaDeleter> memory; // freed before what it refers to
+  std::unique_ptr<void, IdaDeleter> memory; // freed before the objects it refers to
 
   N_Vector new_vector() const {
     N_Vector v = made(N_VNew_Serial(system.n, context.get()), "N_VNew_Serial");
     if (system.n_error_groups() != 1)
-      v->ops->nvwrmsnormmask = norm_by_group; // its clones take it over
-    if (system.n == 0)                        // where nothing can move: SUNDIALS' own is 0 / 0
+      v->ops->nvwrmsnormmask = norm_by_group; // clones inherit it
+    // nothing can move: the norm of SUNDIALS would be 0 / 0
+    if (system.n == 0)
       v->ops->nvwrmsnorm = [](N_Vector, N_Vector) { return 0.0; };
     return v;
   }
@@ -200,8 +201,8 @@ int Ida::jacobian(double t, double alpha, N_Vector y, N_Vector yp, N_Vector, SUN
   return 0;
 }
 
-// w_i = 1 / (rtol (scale_i + |y_i|)), without |y_i| for positions, whose origin means nothing. A
-// multiplier is known no better than the velocities, whose rounding it feels divided by the step.
+// Weights w_i = 1 / (rtol (scale_i + |y_i|)), without |y_i| for positions, whose origin is
+// arbitrary. A multiplier is no more exact than the rounding of the velocities divided by the step.
 int Ida::weights(N_Vector y, N_Vector w, void* user) {
   Ida& self = *static_cast<Ida*>(user);
   const Eigen::Map<const VectorX> state(N_VGetArrayPointer(y), self.system.n);
@@ -260,15 +261,15 @@ void Ida::start(const SolverOptions& options, const VectorX& y0, const VectorX& 
   check(IDASetJacFn(ida, jacobian), "IDASetJacFn");
 }
 
-/// What belongs to accepted steps moves on.
+/// Updates the data of accepted steps.
 void Ida::accept() {
   now = view(y.get(), system.n);
   now_rate = view(yp.get(), system.n);
   equations.accept(t_, now, now_rate);
 }
 
-/// Which unknowns failed the error test, and which equations Newton could not satisfy, at the point
-/// that IDA tried last.
+/// Message with the unknowns that failed the error test, and the equations that Newton could not
+/// solve, at the last point that IDA tried.
 std::string Ida::diagnosis(int flag) {
   void* ida = memory.get();
   std::string text;
@@ -287,16 +288,16 @@ std::string Ida::diagnosis(int flag) {
     now_rate = view(yp_now, system.n);
     now.segment(system.lambda0, system.n_lambda) =
         view(y.get(), system.n).segment(system.lambda0, system.n_lambda);
-    if (lost_time >= t_ - 1e-6 * time_scale) // the diagnosis looks at what was evaluated last
+    if (lost_time >= t_ - 1e-6 * time_scale) // the diagnosis uses the last evaluated point
       equations.residual(lost_time, lost, lost_rate, out);
     text += equations.diagnosis(t_, now, now_rate);
   }
   return text;
 }
 
-/// Where loops are ill-conditioned the multipliers are rounded more than foreseen, and Newton's
-/// iteration cannot satisfy their weights: from the last good point once more with weaker ones (the
-/// multipliers only), by tenfolds up to 1e6 epsilon. The motion keeps its tolerance.
+/// Restarts from the last good point with weaker weights of the multipliers, by factors of 10 up to
+/// 1e6 epsilon. In ill-conditioned loops their rounding is larger than expected, and Newton cannot
+/// reach the weights. The motion keeps its tolerance.
 bool Ida::try_again() {
   constexpr double most = 1e6;
   if (rounding >= most)
@@ -308,7 +309,7 @@ bool Ida::try_again() {
   return true;
 }
 
-/// At order 1, from t_.
+/// Restarts at order 1 from t_.
 void Ida::begin_anew(const VectorX& y0, const VectorX& yp0) {
   std::copy(y0.begin(), y0.end(), N_VGetArrayPointer(y.get()));
   std::copy(yp0.begin(), yp0.end(), N_VGetArrayPointer(yp.get()));
@@ -372,7 +373,7 @@ void Ida::interpolate(double t, VectorX& y_out, VectorX& yp_out) {
   }
 }
 
-/// Of the integration since the last start.
+/// Statistics since the last start.
 linalg::Statistics Ida::counts() const {
   void* ida = memory.get();
   linalg::Statistics s;

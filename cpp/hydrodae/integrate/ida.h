@@ -6,7 +6,7 @@
 
 namespace hydrodae::integrate {
 
-/// Throws SolverError when SUNDIALS refuses.
+/// Throws SolverError if SUNDIALS refuses.
 std::unique_ptr<Integrator> make_ida(const system::Regime& system, const system::Pattern& pattern,
                                      const SolverOptions& options, double t0, const VectorX& y,
                                      const VectorX& yp);

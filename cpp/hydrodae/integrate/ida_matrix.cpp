@@ -33,7 +33,7 @@ SUNMatrix make_ida_matrix(SUNContext context) {
   if (!matrix)
     return nullptr;
   matrix->ops->getid = custom_matrix;
-  matrix->ops->zero = keep_matrix; // the callback overwrites all
+  matrix->ops->zero = keep_matrix; // the callback overwrites all entries
   matrix->ops->destroy = SUNMatFreeEmpty;
   return matrix;
 }

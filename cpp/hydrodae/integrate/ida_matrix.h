@@ -1,5 +1,5 @@
 #pragma once
-/// NewtonMatrix as IDA sees it: a matrix of our own, and a direct solver for it.
+/// Adapter of NewtonMatrix for IDA: a custom matrix and a direct solver.
 
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
@@ -8,14 +8,14 @@
 
 namespace hydrodae::integrate {
 
-/// The Jacobian callback sets the parts and alpha; the solver factorises and solves.
+/// Matrix whose Jacobian callback sets the parts and alpha; the solver factorises and solves.
 struct IdaMatrix {
   linalg::NewtonMatrix<double> newton;
   const system::JacobianParts* parts = nullptr;
   double alpha = 0.0;
 };
 
-/// Null when there is no memory.
+/// Null if memory is exhausted.
 SUNMatrix make_ida_matrix(SUNContext context);
 SUNLinearSolver make_ida_solver(IdaMatrix& matrix, SUNContext context);
 

@@ -11,7 +11,7 @@ using Real = long double;
 using VectorL = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 using MatrixL = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// P_n(x) of Legendre and P_{n-1}(x), x in [-1, 1].
+/// Legendre polynomials P_n(x) and P_{n-1}(x), x in [-1, 1].
 std::pair<Real, Real> legendre(int n, Real x) {
   Real p = 1, before = 0;
   for (int k = 1; k <= n; ++k) {
@@ -22,14 +22,14 @@ std::pair<Real, Real> legendre(int n, Real x) {
   return {p, before};
 }
 
-/// P_n' = n (x P_n - P_{n-1}) / (x^2 - 1), |x| < 1.
+/// Derivative P_n' = n (x P_n - P_{n-1}) / (x^2 - 1), |x| < 1.
 Real legendre_slope(int n, Real x) {
   const auto [p, before] = legendre(n, x);
   return n * (x * p - before) / (x * x - 1);
 }
 
-/// What vanishes at the inner nodes: P_s (Gauss), P_s - P_{s-1} (Radau, the node 1 apart),
-/// P_{s-1}' (Lobatto, the ends apart).
+/// Function with roots at the inner nodes: P_s (Gauss), P_s - P_{s-1} (Radau, without the node 1),
+/// P_{s-1}' (Lobatto, without the ends).
 Real node_function(Family family, int s, Real x) {
   switch (family) {
   case Family::gauss:
@@ -44,8 +44,8 @@ Real node_function(Family family, int s, Real x) {
   return legendre_slope(s - 1, x);
 }
 
-/// Nodes on [0, 1]: simple roots found by sign changes on a grid finer than their distance, which
-/// near the ends is that of Chebyshev's points, then bisection.
+/// Nodes on [0, 1]: simple roots, found by sign changes on a grid finer than their distance (near
+/// the ends that of Chebyshev points), then by bisection.
 VectorL nodes(Family family, int s) {
   std::vector<Real> x;
   if (family == Family::lobatto_iiic)
@@ -74,7 +74,7 @@ VectorL nodes(Family family, int s) {
   return c;
 }
 
-/// int_0^x P_k(2 t - 1) dt.
+/// Integral int_0^x P_k(2 t - 1) dt.
 Real legendre_integral(int k, Real x) {
   const Real z = 2 * x - 1;
   if (k == 0)
@@ -99,7 +99,8 @@ VectorL moments(int s, Real x) {
   return m;
 }
 
-/// Rows of A: the collocation conditions; Lobatto IIIC has a_i1 = b_1 in place of the highest one.
+/// Matrix A from the collocation conditions; Lobatto IIIC has a_i1 = b_1 in place of the highest
+/// one.
 MatrixL stage_matrix(Family family, const VectorL& c, const VectorL& b) {
   const int s = static_cast<int>(c.size());
   MatrixL A(s, s);
@@ -121,7 +122,7 @@ MatrixL stage_matrix(Family family, const VectorL& c, const VectorL& b) {
   return A;
 }
 
-/// a^-1 = T L T^-1 with the real eigenvalue first (odd s), then 2 x 2 blocks.
+/// Transforms a^-1 = T L T^-1 with the real eigenvalue first (odd s), then 2 x 2 blocks.
 void transform(const MatrixL& inverse, RungeKutta& rk) {
   const auto s = inverse.rows();
   const Eigen::EigenSolver<MatrixL> eigen(inverse);
@@ -135,8 +136,8 @@ void transform(const MatrixL& inverse, RungeKutta& rk) {
         rk.real.push_back(static_cast<double>(value.real()));
         T.col(column++) = eigen.eigenvectors().col(k).real();
       } else if (pass == 1 && !is_real && value.imag() > 0) {
-        // A (x + i y) = (alpha + i beta) (x + i y): A [x, -y] = [x, -y] [[alpha, -beta], [beta,
-        // alpha]].
+        // Block of a pair: A (x + i y) = (alpha + i beta) (x + i y) becomes A [x, -y] = [x, -y]
+        // [[alpha, -beta], [beta, alpha]].
         rk.pairs.emplace_back(static_cast<double>(value.real()), static_cast<double>(value.imag()));
         T.col(column++) = eigen.eigenvectors().col(k).real();
         T.col(column++) = -eigen.eigenvectors().col(k).imag();
@@ -168,8 +169,8 @@ RungeKutta make_runge_kutta(Family family, int stages) {
     rk.end.setZero();
     rk.end[stages - 1] = 1.0;
   }
-  // b^ with b^_0 = gamma0 at the start of the step and order s: sum b^_i P_k(c_i) = m_k - gamma0
-  // P_k(-1).
+  // Embedded weights b^ with b^_0 = gamma0 at the start of the step and order s: sum b^_i P_k(c_i)
+  // = m_k - gamma0 P_k(-1).
   const Real gamma0 =
       1 / static_cast<Real>(rk.real.empty() ? std::abs(rk.pairs.front()) : rk.real.front());
   VectorL m = moments(stages, 1);

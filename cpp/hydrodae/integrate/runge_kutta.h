@@ -1,6 +1,5 @@
 #pragma once
-/// Coefficients of implicit Runge-Kutta methods of any number of stages, computed rather than
-/// tabulated.
+/// Coefficients of implicit Runge-Kutta methods of any number of stages, computed at run time.
 
 #include <complex>
 #include <vector>
@@ -11,28 +10,28 @@ namespace hydrodae::integrate {
 
 enum class Family { radau_iia, gauss, lobatto_iiic };
 
-/// A method in the form that Newton's iteration needs.
+/// Method in the form that Newton's iteration needs.
 struct RungeKutta {
   Family family = Family::radau_iia;
   int stages = 0, order = 0;
   VectorX c, b; ///< (s,) nodes and weights
   MatrixX a;    ///< (s, s)
   MatrixX a_inverse;
-  /// a^-1 = T diag(real, pairs) T^-1; a pair (alpha, beta) stands for [[alpha, -beta], [beta,
-  /// alpha]].
+  /// Transformation a^-1 = T diag(real, pairs) T^-1. A pair (alpha, beta) is the block [[alpha,
+  /// -beta], [beta, alpha]].
   MatrixX T, T_inverse;
   std::vector<double> real;
   std::vector<std::complex<double>> pairs;
-  /// y_end = y_start + sum_i end_i Z_i with the stage increments Z.
+  /// Weights of the end: y_end = y_start + sum_i end_i Z_i with the stage increments Z.
   VectorX end;
-  /// Error estimate: h gamma0 f(start) + sum_i error_i Z_i, of order s (Hairer and Wanner, Solving
-  /// ODEs II (1996), section IV.8).
+  /// Weights of the error estimate h gamma0 f(start) + sum_i error_i Z_i, of order s (Hairer and
+  /// Wanner, Solving ODEs II (1996), section IV.8).
   VectorX error;
   double gamma0 = 0.0;
   bool stiffly_accurate() const { return family != Family::gauss; }
 };
 
-/// Radau IIA (order 2 s - 1), Gauss (2 s) or Lobatto IIIC (2 s - 2).
+/// Methods Radau IIA (order 2 s - 1), Gauss (2 s) or Lobatto IIIC (2 s - 2).
 RungeKutta make_runge_kutta(Family family, int stages);
 
 } // namespace hydrodae::integrate

@@ -5,9 +5,9 @@
 namespace hydrodae::integrate {
 
 namespace {
-constexpr double tolerance = 1e-10; ///< of gaps and their rates, in units of their scale
-constexpr double closed_to = 1e-11; ///< likewise: of a sample that is closed
-constexpr double far = 0.1;         ///< likewise: more is no error of an interpolant
+constexpr double tolerance = 1e-10; ///< tolerance of gaps and their rates, in units of their scale
+constexpr double closed_to = 1e-11; ///< gap of a closed sample, in units of its scale
+constexpr double far = 0.1;         ///< largest error of an interpolant, in units of its scale
 } // namespace
 
 SampleClosing::SampleClosing(const system::Regime& system, const system::Pattern& pattern,
@@ -42,7 +42,7 @@ void SampleClosing::close(double t, VectorX& y) {
   if (!saddle_->project(t, closed_, closed_to)) {
     if (here)
       return;
-    // The matrix of a sample before may be too far off.
+    // The matrix of an earlier sample may be too inexact.
     closed_ = y;
     if (!saddle_->linearise(t, closed_) || !saddle_->project(t, closed_, closed_to))
       return;

@@ -1,6 +1,6 @@
 #pragma once
-/// Closes the joints of a sample between two steps. The interpolant of a method misses the
-/// constraints by its own error, where the ends of its steps meet them.
+/// Closes the joints of a sample between two steps. The ends of steps meet the constraints; the
+/// interpolant misses them by its error.
 
 #include <optional>
 
@@ -10,35 +10,35 @@ namespace hydrodae::integrate {
 
 class SampleClosing {
 public:
-  /// Of rows that stay as they are in `system`, which must outlive it, as must `pattern`.
-  /// @param rates false: gaps alone call for it, as rates of gaps cost a sample more than they are
-  ///   worth where the method closes these itself
+  /// @param system  its rows must not change; like `pattern` it must outlive this object
+  /// @param rates  false: only position gaps trigger the closing, for methods that close the rates
+  /// themselves
   SampleClosing(const system::Regime& system, const system::Pattern& pattern, bool rates);
 
-  /// To be called at each step's end: drives and couplers of angles know on which turn these are.
+  /// Takes the end of a step, which sets the turns of the angles of drives and couplers.
   void accept(double t, const VectorX& y, const VectorX& yp) {
     equations_.accept(t, y, yp);
     linearised_ = false;
   }
 
-  /// Moves q, then u, by the smallest amount in the metric of M onto the constraints, where they
-  /// miss them by more than a tolerance far below any of a run. In a pose where that does not
-  /// succeed (a singular one) they stay.
+  /// Moves q, then u, onto the constraints by the smallest amount in the metric of M, if the gap
+  /// exceeds a tolerance far below that of any run. In a singular pose, where this fails, they
+  /// stay.
   void close(double t, VectorX& y);
 
-  /// Reactions and accelerations from one solve by the loads at t. At rest steps are as long as the
-  /// motion allows, and the multipliers between their ends follow no load; those of BDF are in no
-  /// error test.
+  /// Computes reactions and accelerations in one solve from the loads at t. At rest, steps are as
+  /// long as the motion allows, and multipliers between their ends do not follow the loads; the
+  /// error test of BDF excludes them.
   void hold(double t, VectorX& y, VectorX& yp);
 
 private:
   bool open(double t, const VectorX& y, const VectorX& yp);
 
   const system::Regime& s_;
-  const Index first_; ///< row that is looked at
+  const Index first_; ///< first row that is checked
   linalg::Equations equations_;
-  std::optional<linalg::SaddlePoint> saddle_; ///< made for the first sample that is open
-  bool linearised_ = false; ///< for the samples of this step: one matrix serves them all
+  std::optional<linalg::SaddlePoint> saddle_; ///< made for the first open sample
+  bool linearised_ = false;                   ///< true: the matrix serves the samples of this step
   VectorX residual_, closed_, rates_;
 };
 

@@ -1,12 +1,12 @@
 #pragma once
-/// The radiation memory at all stages of a step, eliminated by hand. Its states are linear with
-/// constant coefficients and feel the bodies through their velocities U only. With increments Z_i
-/// and their rates sum_j (a^-1)_ij Z_j / h:
+/// Elimination of the radiation memory at all stages of a step. Its states are linear with constant
+/// coefficients, and depend on the bodies only through their velocities U. With increments Z_i and
+/// their rates sum_j (a^-1)_ij Z_j / h:
 ///
 ///   sum_j ((a^-1)_ij / h - [i = j] A_r) dz_j - B_r dU_i = r_i
 ///   dz_i = sum_j G_ij (r_j + B_r dU_j)
 ///
-/// Stage i of the bodies feels L C G_ij B_r dU_j of each stage j: as dense as the added mass
+/// Stage i of the bodies receives L C G_ij B_r dU_j from each stage j: as dense as the added mass
 /// between the bodies. linalg/newton_matrix.h does the same for one stage.
 
 #include <algorithm>
@@ -25,13 +25,13 @@ public:
       input_(in.state, in.coordinate) = in.value;
   }
 
-  /// The ports of a stage, from its Jacobian.
+  /// Takes the ports of a stage from its Jacobian.
   void take(std::size_t stage, const system::JacobianParts& parts) {
     ports_.resize(std::max(ports_.size(), stage + 1));
     ports_[stage] = {parts.memory, parts.memory_weights};
   }
 
-  /// G and T_ij = C G_ij B_r of the step h, once the ports of all stages are there.
+  /// Computes G and T_ij = C G_ij B_r for the step h, once the ports of all stages are there.
   void prepare(const MatrixX& a_inverse, double h) {
     const auto s = a_inverse.rows();
     const bool weighted = ports_.front().weights.size() > 0;
@@ -68,7 +68,7 @@ public:
       }
   }
 
-  /// What velocities of stage j load the bodies with at stage i: visit(k-th entry of
+  /// Visits the loads on the bodies at stage i per velocity at stage j: visit(k-th entry of
   /// linalg::for_each_memory_entry, value).
   template <class Visit> void for_each_load(Index i, Index j, Index stages, Visit&& visit) const {
     const std::vector<system::HydroBody>& bodies = s_.hydro.bodies;
@@ -92,8 +92,8 @@ public:
         });
   }
 
-  /// Takes the residuals r of the states out of those of the bodies, and keeps them; their own rows
-  /// are those of the identity.
+  /// Eliminates the residuals r of the states from those of the bodies, and keeps them; the rows of
+  /// the states become rows of the identity.
   void forward(MatrixX& residual) {
     const system::HydroData& hydro = s_.hydro;
     auto rows = residual.middleRows(hydro.z0, hydro.n_states);
@@ -115,7 +115,7 @@ public:
     }
   }
 
-  /// The increments of the states from those of the bodies.
+  /// Computes the increments of the states from those of the bodies.
   void backward(MatrixX& increment) const {
     const system::HydroData& hydro = s_.hydro;
     MatrixX driven = kept_;
@@ -145,7 +145,7 @@ private:
     VectorX weights;
   };
 
-  /// sum_j G_ij r_j, of each stage a column.
+  /// Response sum_j G_ij r_j, one column for each stage.
   MatrixX respond(const MatrixX& r) const {
     MatrixX out(r.rows(), r.cols());
     std::size_t k = 0;
@@ -162,9 +162,9 @@ private:
   MatrixX input_; ///< B_r (n_states, n_moving)
   std::vector<Ports> ports_;
   double h_ = 0.0;
-  std::vector<MatrixX> responses_; ///< G of each block, by stage and state
-  std::vector<MatrixX> transfers_; ///< [i * s + j]: T_ij
-  MatrixX kept_;                   ///< (n_states, s) r
+  std::vector<MatrixX> responses_; ///< responses G of each block, by stage and state
+  std::vector<MatrixX> transfers_; ///< transfers T_ij at [i * s + j]
+  MatrixX kept_;                   ///< (n_states, s) residuals r
 };
 
 } // namespace hydrodae::integrate

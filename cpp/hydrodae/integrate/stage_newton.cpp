@@ -8,8 +8,8 @@ namespace hydrodae::integrate {
 
 namespace {
 constexpr double rounding = 1e2 * std::numeric_limits<double>::epsilon();
-// Error of the iteration in units of the error tolerance. It adds up over the steps where the
-// truncation error, which the estimate of lower order exaggerates, does not.
+// Error of the iteration in units of the error tolerance. It accumulates over the steps; the
+// truncation error, which the lower-order estimate exaggerates, does not.
 constexpr double accuracy = 1e-3;
 } // namespace
 
@@ -37,10 +37,10 @@ bool StageNewton::factorise(double h) {
   return good;
 }
 
-/// Real systems that cost as much as those of all eigenvalues: a complex one is worth two.
+/// Number of real systems with the cost of all eigenvalues: a complex one counts as two.
 double StageNewton::n_systems() const { return 1.0 + 2.0 * static_cast<double>(pairs_.size()); }
 
-/// By the operations of the matrix for one stage.
+/// Cost of a renewal in iterations, from the operations of the matrix for one stage.
 double StageNewton::find_renewal() const {
   const auto entries = static_cast<double>(e_.pattern.row.size());
   return (n_systems() * one_.factorise + linalg::of_jacobian * entries) /
@@ -48,7 +48,7 @@ double StageNewton::find_renewal() const {
 }
 
 void StageNewton::rates(double h, const MatrixX& Z, MatrixX& out) const {
-  out.noalias() = Z.lazyProduct(rk_.a_inverse.transpose()); // of few columns: no blocks
+  out.noalias() = Z.lazyProduct(rk_.a_inverse.transpose()); // few columns: no blocks
   out /= h;
 }
 
@@ -65,8 +65,8 @@ bool StageNewton::residuals(double t, double h, const VectorX& y0, const MatrixX
   return true;
 }
 
-/// Root mean square over all stages of positions, velocities and memory states. Multipliers follow
-/// from these linearly; in a singular pose they are not unique, and say nothing.
+/// Root mean square over all stages of positions, velocities and memory states. Multipliers depend
+/// linearly on these, and are not unique in a singular pose.
 double StageNewton::size(const VectorX& w, const MatrixX& dZ) const {
   const Index d = e_.system.lambda0;
   if (e_.system.n_error_groups() <= 1)
@@ -77,14 +77,14 @@ double StageNewton::size(const VectorX& w, const MatrixX& dZ) const {
   return linalg::largest_by_group(e_.system, squares.data(), sums_);
 }
 
-/// Newton with increments by `solve`, which overwrites residual_ with the increment (sign as in
-/// Z -= increment) and returns false where it cannot. Increments below `stalled` that no longer
-/// shrink are rounding: converged.
+/// Newton's iteration with increments by `solve`, which overwrites residual_ with the increment
+/// (sign as in Z -= increment) and returns false if it cannot. Increments below `stalled` that no
+/// longer shrink are rounding: converged.
 template <class Solve>
 NewtonResult StageNewton::iterate(double t, double h, const VectorX& y0, const VectorX& w,
                                   MatrixX& Z, int most, double stalled, Solve&& solve) {
   double before = 0.0;
-  // Rounding of the residual as the unknowns feel it sets a floor.
+  // Rounding of the residual sets a lower bound on the increments.
   const Index n_q = e_.system.n_q;
   const double floor =
       rounding *
@@ -120,7 +120,8 @@ NewtonResult StageNewton::simplified(double t, double h, const VectorX& y0, cons
                                      MatrixX& Z) {
   const int most = 7 + rk_.stages;
   return iterate(t, h, y0, w, Z, most, accuracy, [&] {
-    // W = (T^-1 x I) dZ decouples: a real system and complex ones, x + i y from the pair's columns.
+    // Transformation W = (T^-1 x I) dZ decouples the stages: a real system, and complex ones x + i
+    // y from the columns of a pair.
     work_.noalias() = residual_.lazyProduct(rk_.T_inverse.transpose());
     int column = 0;
     if (!rk_.real.empty())
@@ -141,8 +142,8 @@ NewtonResult StageNewton::simplified(double t, double h, const VectorX& y0, cons
   });
 }
 
-/// Pattern of all stages: J and B in the diagonal blocks, B elsewhere, and the velocities of points
-/// by their places at all stages.
+/// Pattern of all stages: J and B in the diagonal blocks, B elsewhere. Velocities of points are
+/// eliminated by their places at all stages.
 void StageNewton::make_full() {
   const int s = rk_.stages;
   full_ = std::make_unique<Full>(e_.system, e_.pattern);
@@ -187,8 +188,8 @@ void StageNewton::make_full() {
     }
   full_->by_y = full_->by_yp = MatrixX::Zero(std::ssize(p.lifted), s);
   full_->stays = MatrixX::Zero(p.empty() ? 0 : n, s);
-  // Ordered as a whole: with all stages of each unknown together, in the order of one stage, it
-  // fills more.
+  // The matrix is ordered as a whole: the order of one stage, with all stages of each unknown
+  // together, has more fill-in.
   full_->lu = std::make_unique<linalg::SparseLu<double>>(full_->start, full_->row);
 }
 
@@ -224,7 +225,7 @@ bool StageNewton::factorise_full(double t, double h) {
       const std::vector<Index>& slots = full_->slots[static_cast<std::size_t>(i * s + j)];
       const double one = i == j ? 1.0 : 0.0, factor = rk_.a_inverse(i, j) / h,
                    square = twice(i, j) / (h * h);
-      std::size_t next = 0; // of the lifted ones
+      std::size_t next = 0; // index among the lifted entries
       for (std::size_t k = 0; k < nonzeros; ++k) {
         const Index stays = points.empty() ? static_cast<Index>(k) : points.target[k];
         const Index slot = stays < 0 ? -1 : slots[static_cast<std::size_t>(stays)];
@@ -270,8 +271,8 @@ void StageNewton::solve_full(double h) {
     full_->memory->backward(residual_);
 }
 
-/// Overwrites residual_ with the increment; columns one after the other are the order of the
-/// blocks. Of points dU = dQ A^T / h - R, with their places Q and the residuals R of these.
+/// Overwrites residual_ with the increment; the blocks are ordered column by column. Velocities of
+/// points: dU = dQ A^T / h - R, with their places Q and the residuals R of their rows.
 void StageNewton::solve_bodies(double h) {
   const linalg::PointElimination& p = full_->points;
   if (p.empty()) {
@@ -305,10 +306,10 @@ NewtonResult StageNewton::full(double t, double h, const VectorX& y0, const Vect
                                MatrixX& Z) {
   if (!full_)
     make_full();
-  // At a stage close to a singular pose rounding keeps the increments above any finer bound.
+  // Near a singular pose rounding keeps the increments above any finer bound.
   const double stalled = 0.5;
   return iterate(t, h, y0, w, Z, 15, stalled, [&] {
-    const bool settled = iterations > 2 && contraction < 0.01; // then the matrix serves on
+    const bool settled = iterations > 2 && contraction < 0.01; // the matrix then serves again
     if (!settled && !factorise_full(t, h))
       return false;
     solve_full(h);

@@ -2,9 +2,10 @@
 /// Newton's iteration on the stages of one step. With increments Z_i = Y_i - y_0 and
 /// Y'_i = sum_j (a^-1)_ij Z_j / h the equations are F(t_i, Y_i, Y'_i) = 0.
 ///
-/// Simplified: one Jacobian J + (lambda / h) B for each eigenvalue lambda of a^-1 (one real, the
-/// others complex), J = dF/dy and B = dF/dy' at the start of the step. Full: the Jacobian at every
-/// stage, all stages in one sparse matrix; it passes singular poses where the simplified one fails.
+/// Simplified Newton: one Jacobian J + (lambda / h) B for each eigenvalue lambda of a^-1 (one real,
+/// the others complex), with J = dF/dy and B = dF/dy' at the start of the step. Full Newton: the
+/// Jacobian at every stage, all stages in one sparse matrix; it passes singular poses where the
+/// simplified one fails.
 
 #include <memory>
 #include <optional>
@@ -25,40 +26,42 @@ public:
 
   const RungeKutta& rk() const { return rk_; }
 
-  /// Factorises for the step h with the parts that `Equations::jacobian` left. False: singular.
+  /// Factorises for the step h from the parts of `Equations::jacobian`. Returns false if singular.
   bool factorise(double h);
 
-  /// Iterates on Z (n, s) from what it holds. `w`: weights of the norm.
+  /// Iterates on Z (n, s) from its present values. `w`: weights of the norm.
   NewtonResult simplified(double t, double h, const VectorX& y0, const VectorX& w, MatrixX& Z);
   NewtonResult full(double t, double h, const VectorX& y0, const VectorX& w, MatrixX& Z);
 
-  /// Z' of the stages, (n, s).
+  /// Computes the rates Z' of the stages, (n, s).
   void rates(double h, const MatrixX& Z, MatrixX& out) const;
 
   /// Solves (J + B / (gamma0 h)) x = x, for the error estimate.
   void solve_real(VectorX& x) { real_->solve(x.data()); }
 
-  /// How many iterations of `simplified` cost as much as a Jacobian and its matrices, roughly.
+  /// Approximate number of iterations of `simplified` that cost as much as a Jacobian and its
+  /// matrices.
   double renewal() const { return renewal_; }
 
-  /// Contraction of the last iteration, and how many it took.
+  /// Contraction of the last iteration, and the number of iterations.
   double contraction = 0.0;
   int iterations = 0;
 
 private:
   struct Full {
-    system::Pattern pattern;     ///< of one stage
-    system::JacobianParts parts; ///< of one stage
+    system::Pattern pattern;     ///< pattern of one stage
+    system::JacobianParts parts; ///< Jacobian of one stage
     linalg::PointElimination points;
     std::vector<Index> start, row;
     std::vector<Index>
         diagonal; ///< places of the multipliers' own diagonal entries, stage by stage
-    /// [i * s + j][k]: place of entry k of what stays of block (i, j), -1
+    /// Place of entry k of the reduced block (i, j) at [i * s + j][k], or -1
     std::vector<std::vector<Index>> slots;
-    std::vector<Index> memory_slots; ///< of what stays, in the order of StageMemory's visits
+    /// Places of the reduced entries, in the order of StageMemory's visits
+    std::vector<Index> memory_slots;
     std::optional<StageMemory> memory;
-    MatrixX by_y, by_yp; ///< (lifted, s) their entries at the stages
-    MatrixX stays;       ///< (n, s) of what stays
+    MatrixX by_y, by_yp; ///< (lifted, s) entries of the lifted rows at the stages
+    MatrixX stays;       ///< (n, s) reduced right side
     std::unique_ptr<linalg::SparseLu<double>> lu;
     linalg::SparseLu<double>::Work work;
     Full(const system::Regime& s, const system::Pattern& of_stage)
@@ -82,8 +85,8 @@ private:
   std::unique_ptr<linalg::NewtonMatrix<double>> real_;
   std::vector<std::unique_ptr<linalg::NewtonMatrix<std::complex<double>>>> pairs_;
   std::unique_ptr<Full> full_;
-  linalg::SparseLu<double>::Work one_; ///< of a real system, as it first was
-  double renewal_ = 0.0;               ///< 0: not known yet
+  linalg::SparseLu<double>::Work one_; ///< work of a real system at its first factorisation
+  double renewal_ = 0.0;               ///< cost of a renewal; 0: not known yet
   MatrixX stage_, rate_, residual_, work_;
   VectorX y_, yp_, r_;
   mutable VectorX sums_; ///< scratch of `size`

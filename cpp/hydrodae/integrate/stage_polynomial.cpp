@@ -5,7 +5,7 @@ namespace hydrodae::integrate {
 
 namespace {
 
-/// q' = E(q) u of the bodies (n_q,): quaternions turn by half the angular velocity.
+/// Rates q' = E(q) u of the bodies (n_q,): quaternions turn by half the angular velocity.
 VectorX position_rates(const system::Regime& s, const VectorX& y) {
   VectorX rates = VectorX::Zero(s.n_q);
   for (const system::BodyData& b : s.bodies) {
@@ -20,7 +20,7 @@ VectorX position_rates(const system::Regime& s, const VectorX& y) {
   return rates;
 }
 
-/// Of Lagrange through the stages at x: of stage i.
+/// Lagrange weight of stage i at x, through the stages.
 double stage_weight(const RungeKutta& rk, int i, double x) {
   double weight = 1.0;
   for (int j = 0; j < rk.stages; ++j)

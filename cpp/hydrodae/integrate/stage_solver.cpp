@@ -10,7 +10,7 @@ void StageSolver::use(StageNewton& newton) {
   factored_ = 0.0;
 }
 
-/// First guess of the stages: the last step's polynomial, or a straight line.
+/// Initial guess of the stages: the last step's polynomial, or a straight line.
 void StageSolver::start_values(double h, bool extrapolate) {
   const RungeKutta& rk = newton_->rk();
   stages_.resize(e_.system.n, rk.stages);
@@ -27,8 +27,8 @@ void StageSolver::start_values(double h, bool extrapolate) {
   }
 }
 
-/// One Jacobian for all stages: in the middle of the step, by the last polynomial if there is one:
-/// so that it differs least from that of any stage; else at the start.
+/// Computes one Jacobian for all stages: in the middle of the step if there is a last polynomial,
+/// where it differs least from those of the stages; else at the start.
 void StageSolver::jacobian(double h, bool extrapolate) {
   if (extrapolate) {
     const double x = 1.0 + 0.5 * h / last_.length();
@@ -42,8 +42,8 @@ void StageSolver::jacobian(double h, bool extrapolate) {
   factored_ = extra_ = 0.0;
 }
 
-/// Do the matrices at hand serve a step h? Where Newton contracts at once; where they are
-/// expensive, until the iterations that they cost beyond those of new ones are worth a renewal.
+/// Returns whether the present matrices serve a step h: if Newton contracts at once; if they are
+/// expensive, until the extra iterations have cost as much as a renewal.
 bool StageSolver::serves(double h) const {
   constexpr double same = 1e-9;
   constexpr double dear = 4.0; // iterations
@@ -92,7 +92,7 @@ bool StageSolver::simplified(double h) {
 
 bool StageSolver::full(double h) {
   start_values(h, false);
-  fresh_ = false; // the Jacobian at hand will be that of a stage
+  fresh_ = false; // the present Jacobian becomes that of a stage
   factored_ = 0.0;
   state_.was_full = newton_->full(from_.t, h, from_.y, from_.w, stages_) == NewtonResult::converged;
   return state_.was_full;

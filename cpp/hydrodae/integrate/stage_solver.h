@@ -1,5 +1,5 @@
 #pragma once
-/// The stages of one step by Newton's iteration, with matrices that are kept as long as they serve.
+/// Stages of one step by Newton's iteration, with matrices that are kept while they serve.
 
 #include "hydrodae/integrate/stage_newton.h"
 #include "hydrodae/integrate/stage_polynomial.h"
@@ -8,40 +8,41 @@ namespace hydrodae::integrate {
 
 class StageSolver {
 public:
-  /// Where a step starts: the last accepted instant, and the weights of the norm there.
+  /// Start of a step: the last accepted instant, and the weights of the norm there.
   struct Start {
     double t = 0.0;
     VectorX y, yp, w;
   };
 
-  /// `start`, `last`: of the method at work.
+  /// @param start, last  members of the method
   StageSolver(linalg::Equations& equations, const Start& start, const StagePolynomial& last)
       : e_(equations), from_(start), last_(last) {}
 
-  /// The method with which the next steps are made.
+  /// Sets the method of the next steps.
   void use(StageNewton& newton);
 
-  /// Simplified Newton from the last polynomial, with the matrices at hand where they serve; if it
-  /// fails with new ones, and from a straight line with those of the start.
+  /// Simplified Newton from the last polynomial, with the present matrices if they serve. After a
+  /// failure it uses new ones, then a straight line with the Jacobian at the start.
   bool simplified(double h);
 
   /// Full Newton from a straight line.
   bool full(double h);
 
-  /// A step has ended, or the method starts again: the Jacobian is of another one.
+  /// Takes the end of a step, or a restart: the Jacobian belongs to another step.
   void next_step() { fresh_ = false; }
 
-  const MatrixX& stages() const { return stages_; } ///< increments (n, s) that were found
-  bool was_full() const { return state_.was_full; } ///< by full Newton
+  const MatrixX& stages() const { return stages_; } ///< increments (n, s) of the stages
+  bool was_full() const { return state_.was_full; } ///< true: found by full Newton
   double contraction() const {
     return state_.contraction;
-  } ///< of the last step with matrices of its own
+  } ///< contraction of the last step with its own matrices
 
-  /// Without the matrices: they are made again.
+  /// State without the matrices, which are made again.
   struct State {
-    double contraction = 1.0;      ///< of the last step with matrices of its own
-    double last_contraction = 1.0; ///< of the last step
-    int wary = 0, wait = 0; ///< steps to make with new ones after old ones failed; left of them
+    double contraction = 1.0;      ///< contraction of the last step with its own matrices
+    double last_contraction = 1.0; ///< contraction of the last step
+    /// Number of steps with new matrices after old ones failed; number of them left
+    int wary = 0, wait = 0;
     bool was_full = false;
   };
   const State& state() const { return state_; }
@@ -59,10 +60,10 @@ private:
   StageNewton* newton_ = nullptr;
   MatrixX stages_;
   VectorX guess_, guess_rate_;
-  bool fresh_ = false;    ///< the Jacobian is of this step
+  bool fresh_ = false;    ///< true: the Jacobian belongs to this step
   double factored_ = 0.0; ///< step of the matrices at hand [s]
-  int iterations_ = 0;    ///< that this step took
-  double extra_ = 0.0;    ///< iterations that old matrices have cost since
+  int iterations_ = 0;    ///< number of iterations in this step
+  double extra_ = 0.0;    ///< extra iterations of old matrices so far
   State state_;
 };
 

@@ -9,7 +9,7 @@ namespace hydrodae::integrate {
 
 namespace {
 
-/// What counts as one of each position, velocity and memory state, however little it moves now
+/// Size of one unit of each position, velocity and memory state, independent of the present motion
 /// (lambda0,).
 VectorX full_scales(const system::Regime& s) {
   VectorX out = s.scale.head(s.lambda0);
@@ -19,7 +19,7 @@ VectorX full_scales(const system::Regime& s) {
   return out;
 }
 
-/// Numbers in [-1, 1] without a pattern of their own, the same on every machine.
+/// Numbers in [-1, 1] without a pattern, the same on every machine.
 VectorX scattered(Index n) {
   constexpr double golden = 0.6180339887498949;
   VectorX out(n);
@@ -32,8 +32,9 @@ VectorX scattered(Index n) {
 
 double fastest_rate(const system::Regime& s, const system::Pattern& pattern, double t,
                     const VectorX& y, const VectorX& yp) {
-  constexpr int first = 4, last = 14; // the growth between these counts, that of pairs of values
-  constexpr double little = 1e-6;     // of the scales, for differences
+  // growth is measured between these counts, as that of pairs of values
+  constexpr int first = 4, last = 14;
+  constexpr double little = 1e-6; // step of the differences, as part of the scales
   linalg::Equations equations(s, pattern, 1.0);
   equations.accept(t, y, yp);
   linalg::SaddlePoint saddle(equations);

@@ -27,7 +27,7 @@ void write_text(hid_t file, const std::string& name, const std::string& value,
   checked(H5Awrite(attribute, type, &characters), what);
 }
 
-constexpr const char* of_bytes = "state"; ///< the one dataset
+constexpr const char* of_bytes = "state"; ///< name of the only dataset
 
 void write_all(const std::string& path, const ByteFile& content, const std::string& what) {
   const Handle file =
@@ -46,7 +46,7 @@ void write_all(const std::string& path, const ByteFile& content, const std::stri
   checked(H5Fflush(file, H5F_SCOPE_LOCAL), what);
 }
 
-/// Brings the file to disk before it gets its name.
+/// Writes the file to disk before it gets its name.
 void require_on_disk(const std::string& path, const std::string& what) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   const bool good = descriptor >= 0 && ::fsync(descriptor) == 0;

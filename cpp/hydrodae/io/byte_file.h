@@ -13,14 +13,14 @@ struct ByteFile {
   std::string bytes;
 };
 
-/// Writes beside `path` and renames: whoever is killed meanwhile leaves the file that was there.
-/// Throws CaseError when it cannot be written.
+/// Writes beside `path` and renames: if the process is killed, the old file remains. Throws
+/// CaseError if it cannot be written.
 void write_bytes(const std::string& path, const ByteFile& file);
 
-/// The texts of the root of an HDF5 file.
+/// Texts of the root of an HDF5 file.
 Texts read_texts(const std::string& path);
 
-/// Throws CaseError when it is no such file.
+/// Throws CaseError if it is no such file.
 ByteFile read_bytes(const std::string& path);
 
 } // namespace hydrodae::io

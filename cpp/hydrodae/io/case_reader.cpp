@@ -36,14 +36,14 @@ toml::table parse_toml(const std::string& text, const std::string& name) {
   }
 }
 
-/// Where a table begins, or its key where it has no header (made by an override).
+/// Place where a table begins, or of its key if it has no header (made by an override).
 FilePlace table_place(const toml::table& root, const std::string& name) {
   const auto found = root.find(name);
   const toml::source_region& source = found->second.source();
   return place_of(source.path ? source : found->first.source());
 }
 
-/// [name], if the case has it.
+/// Table [name], if the case has it.
 template <class T>
 bool read_single(const toml::table& root, const std::string& name, Places& places, T& out) {
   const toml::node* node = root.get(name);
@@ -157,7 +157,7 @@ struct TableReader {
   }
 };
 
-/// The tables that there are.
+/// Reads the existing tables.
 model::Scene read_tables(const toml::table& root, const std::string& name) {
   model::Scene scene;
   const Table top{root, "the case", "", {name, 1, 1}, "", ""};
@@ -203,7 +203,7 @@ std::shared_ptr<const hydro::Database>
 read_database(model::Scene& scene, const std::string& directory, const std::string& path,
               const std::string& key, const std::string& what) {
   std::shared_ptr<const hydro::Database> out;
-  // In waves a fit is held against the tables; symmetry is judged by the damping, too.
+  // Waves need the tables, to check a fit; symmetry checks also use the damping.
   const bool waves = !scene.waves.empty();
   const model::RadiationRung& radiation = scene.hydro->rung();
   const bool judged = waves && (scene.hydro->axes == "yaw" || radiation.fit);
@@ -274,7 +274,7 @@ void read_meshes(model::Scene& scene, const std::string& directory) {
   }
 }
 
-/// Where FMUs of controllers are.
+/// Resolves the paths of FMUs of controllers.
 void find_fmus(model::Scene& scene, const std::string& directory) {
   for (model::Controller& any : scene.controllers) {
     auto* c = any.as<control::Fmu>();
@@ -321,7 +321,7 @@ model::Scene parse(const std::string& text, const std::string& directory,
 } // namespace
 
 model::Scene read_case(const std::string& path, const Overrides& overrides) {
-  std::error_code ignored; // what cannot be asked cannot be opened either
+  std::error_code ignored; // the following call reports files that do not exist
   if (std::filesystem::is_directory(path, ignored))
     throw CaseError({path}, "", "is a folder; give the case file in it");
   std::ifstream file(path, std::ios::binary);

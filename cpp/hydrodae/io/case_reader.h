@@ -14,7 +14,7 @@ using Overrides = std::map<std::string, std::string>;
 /// file:line:column, the key, what was expected and the nearest valid name.
 model::Scene read_case(const std::string& path, const Overrides& overrides = {});
 
-/// The same from a string; relative paths in it are relative to `directory`.
+/// Parses a case from a string; relative paths in it are relative to `directory`.
 model::Scene parse_case(const std::string& text, const std::string& directory,
                         const Overrides& overrides = {}, const std::string& name = "<case>");
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What is common to reading and writing HDF5: handles that close themselves, checked calls.
+/// Common part of reading and writing HDF5: handles that close themselves, checked calls.
 
 #include <hdf5.h>
 
@@ -67,7 +67,7 @@ template <class Result> Result checked(Result result, const std::string& what) {
   return result;
 }
 
-/// The same for identifiers.
+/// Passes an identifier on; a negative one becomes CaseError.
 inline Handle checked(hid_t id, Handle::Close close, const std::string& what) {
   return {checked(id, what), close};
 }

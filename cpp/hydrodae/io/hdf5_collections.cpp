@@ -14,7 +14,7 @@
 namespace hydrodae::io::hdf5 {
 namespace {
 
-constexpr std::size_t piece = 1 << 22; ///< of a file, whole pages: so much of it is in memory
+constexpr std::size_t piece = 1 << 22; ///< bytes of a file that are in memory at once, whole pages
 constexpr std::size_t header = 16;     ///< bytes of the header of a collection, and of an object
 
 /// Little-endian number of `size` bytes.
@@ -25,7 +25,7 @@ std::uint64_t number_at(std::string_view bytes, std::size_t at, std::size_t size
   return value;
 }
 
-/// Do the objects of the collection at `start` follow each other up to its end?
+/// Returns whether the objects of the collection at `start` follow each other up to its end.
 bool sound(std::string_view bytes, std::size_t start, std::uint64_t size) {
   std::uint64_t at = header;
   while (size - at >= header) {
@@ -42,7 +42,7 @@ bool sound(std::string_view bytes, std::size_t start, std::uint64_t size) {
   return true;
 }
 
-/// The bytes of a file, without a copy; none of one that cannot be read.
+/// Bytes of a file, without a copy; empty for a file that cannot be read.
 class MappedFile {
 public:
   explicit MappedFile(const std::string& path) {

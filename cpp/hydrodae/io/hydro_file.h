@@ -6,7 +6,7 @@
 
 namespace hydrodae::io {
 
-/// Which tables over frequency to read along.
+/// Selection of frequency tables to read.
 struct HydroTables {
   bool excitation = false;
   bool radiation = false;    ///< A(w) and B(w)
@@ -15,17 +15,17 @@ struct HydroTables {
   bool operator==(const HydroTables&) const = default;
 };
 
-/// Reads `hydro.h5`. Throws CaseError (path, dataset, what was expected) when it is missing, not of
-/// our format, or inconsistent in its shapes.
+/// Reads `hydro.h5`. Throws CaseError (path, dataset, expectation) if it is missing, in another
+/// format, or inconsistent in its shapes.
 hydro::Database read_hydro_file(const std::string& path, const HydroTables& tables = {});
 
-/// The database of a file with the digest of its bytes.
+/// Database of a file with the digest of its bytes.
 struct SharedHydroFile {
   std::shared_ptr<const hydro::Database> database;
   std::string sha256;
 };
 
-/// The same, read once for all scenes that hold it at a time: by the path and by the digest.
+/// Database shared by all scenes that hold it at a time, by path and digest.
 SharedHydroFile shared_hydro_file(const std::string& path, const HydroTables& tables);
 
 } // namespace hydrodae::io

@@ -20,7 +20,7 @@ struct Offer {
   const hydrodae_law* law;
 };
 
-/// What is wrong with a law as its library describes it; empty: nothing.
+/// Fault in a law as its library describes it; empty: none.
 std::string fault(const hydrodae_law& law) {
   if (!law.name || !*law.name)
     return "has no name";

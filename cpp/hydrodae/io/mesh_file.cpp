@@ -19,7 +19,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "binary .stl files are little-endian");
 
-constexpr double same_place = 1e-6; ///< of the size of the surface
+/// Distance of equal vertices, as part of the size of the surface
+constexpr double same_place = 1e-6;
 constexpr std::size_t stl_head = 84, stl_triangle = 50;
 
 using Corner = std::array<double, 3>;

@@ -14,7 +14,7 @@ namespace {
 using hdf5::checked;
 using hdf5::Handle;
 
-/// What HDF5 hands around as H5FD_t, which comes first.
+/// Driver data of HDF5, with H5FD_t as the first member.
 struct Driver {
   H5FD_t base{};
   OrderedFile* file = nullptr;

@@ -36,22 +36,22 @@ public:
   /// File access properties for H5Fcreate and H5Fopen; this object must outlive the HDF5 file.
   hdf5::Handle access_properties();
 
-  /// From now on there is a file on disk: `descriptor` is open for reading and writing and stays
-  /// the caller's. Before, everything is in memory.
+  /// Sets the file on disk: `descriptor` is open for reading and writing and belongs to the caller.
+  /// Before, everything is in memory.
   void attach(int descriptor) { descriptor_ = descriptor; }
 
-  /// Brings what H5Fflush or H5Fclose wrote to disk.
+  /// Writes the data of H5Fflush or H5Fclose to disk.
   void commit();
 
-  /// Why nothing more is written ("No space left on device"); empty while all is well. HDF5 itself
-  /// never sees a failure, since it cannot close a file that it cannot write.
+  /// Reason why nothing more is written ("No space left on device"); empty without failure. HDF5
+  /// itself never sees a failure, because it cannot close a file that it cannot write.
   const std::string& failure() const { return failure_; }
 
   /// After a failure: gives back the space behind the last commit, and forgets the failure and all
   /// that is not on disk. The HDF5 file must be closed.
   void recover();
 
-  // What HDF5 calls through the driver.
+  // Functions that HDF5 calls through the driver.
   void read(haddr_t address, std::size_t size, unsigned char* out) const;
   void write(H5FD_mem_t type, haddr_t address, std::size_t size, const unsigned char* data);
   haddr_t end_of_file() const;
@@ -75,13 +75,13 @@ private:
 
   std::function<void()> observer_;
   int descriptor_ = -1;
-  Blocks pending_;                      ///< by address
-  std::size_t longest_ = 0;             ///< of the blocks so far
+  Blocks pending_;                      ///< blocks by address
+  std::size_t longest_ = 0;             ///< length of the longest block so far
   std::unordered_set<haddr_t> on_disk_; ///< addresses of metadata that were committed
-  haddr_t end_of_space_ = 0;            ///< of what HDF5 has allocated
-  haddr_t committed_ = 0;               ///< the same by the superblock on disk
-  haddr_t recovered_ = 0;               ///< all below was on disk when it was opened again
-  haddr_t size_ = 0;                    ///< of the file on disk
+  haddr_t end_of_space_ = 0;            ///< end of the space that HDF5 has allocated
+  haddr_t committed_ = 0;               ///< end of the space by the superblock on disk
+  haddr_t recovered_ = 0;               ///< end of the space on disk when it was reopened
+  haddr_t size_ = 0;                    ///< size of the file on disk
   std::string failure_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Where a results file goes, and that nobody else writes there.
+/// Place of a results file, locked against other writers.
 ///
 /// The run writes `X.partial.h5` beside `X.h5` and renames it when it ends, so that an older `X.h5`
 /// stands until then and what a killed run leaves has a name of its own. The lock is the kernel's,
@@ -36,7 +36,7 @@ public:
   /// that was cut off, or it cannot be made.
   int open();
 
-  /// Gives the partial file its final name, in one step. Returns why not, "" when it worked.
+  /// Gives the partial file its final name, in one step. Returns the reason of a failure, or "".
   std::string finish();
 
   /// Removes the partial file again; it stays open until this object goes.
@@ -45,7 +45,7 @@ public:
 private:
   bool try_lock();
 
-  std::string path_, target_, partial_; ///< as given; behind links; what is written
+  std::string path_, target_, partial_; ///< paths as given, behind links, and of the partial file
   int descriptor_ = -1;
 };
 

@@ -71,10 +71,10 @@ struct ResultsFile::Impl {
   /// A dataset that grows by rows.
   struct Column {
     Handle dataset;
-    std::size_t offset = 0; ///< of its first value in a row of the buffer
+    std::size_t offset = 0; ///< offset of its first value in a row of the buffer
     std::size_t width = 1;
   };
-  /// What all columns of one width share.
+  /// Common data of all columns of one width.
   struct Kind {
     int width;
     Handle space, layout, cache;
@@ -86,19 +86,19 @@ struct ResultsFile::Impl {
   Handle file;
   AttributeWriter attributes;
   Handle links;            ///< properties of links: the groups above are made with them
-  std::vector<Kind> kinds; ///< behind the time
-  std::string last_group;  ///< of the last column; empty: the root
+  std::vector<Kind> kinds; ///< kinds of columns after the time
+  std::string last_group;  ///< group of the last column; empty: the root
   Handle group;
   std::vector<Column> columns; ///< time first
   std::size_t row_size = 0;    ///< values in a row of the buffer
-  std::vector<double> buffer;  ///< rows that HDF5 has not got yet, at most those of a chunk
-  std::vector<double> scratch; ///< one column of them
-  std::size_t buffered = 0;    ///< rows
-  std::size_t written = 0;     ///< rows that HDF5 has got
-  std::size_t committed = 0;   ///< rows on disk
-  double last_time = 0.0;      ///< of the last row [s]
-  double committed_time = 0.0; ///< of the last row on disk [s]
-  bool waiting = false;        ///< rows that are not on disk
+  std::vector<double> buffer;  ///< rows not yet passed to HDF5, at most one chunk
+  std::vector<double> scratch; ///< one column of these rows
+  std::size_t buffered = 0;    ///< number of buffered rows
+  std::size_t written = 0;     ///< number of rows passed to HDF5
+  std::size_t committed = 0;   ///< number of rows on disk
+  double last_time = 0.0;      ///< time of the last row [s]
+  double committed_time = 0.0; ///< time of the last row on disk [s]
+  bool waiting = false;        ///< true: some rows are not on disk
   bool closed = false;
   Clock::time_point last_commit = Clock::now();
 
@@ -224,7 +224,7 @@ void ResultsFile::Impl::write_rows() {
   buffered = 0;
 }
 
-/// Brings all rows to disk.
+/// Writes all rows to disk.
 void ResultsFile::Impl::commit() {
   write_rows();
   checked(H5Fflush(file, H5F_SCOPE_LOCAL), what());

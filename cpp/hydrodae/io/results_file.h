@@ -16,7 +16,8 @@ namespace hydrodae::io {
 using Attribute = std::variant<double, std::int64_t, std::string>;
 using Attributes = std::map<std::string, Attribute>;
 
-inline constexpr std::size_t rows_per_chunk = 512; ///< of a dataset, and kept until written
+/// Rows of a chunk of a dataset, kept until written
+inline constexpr std::size_t rows_per_chunk = 512;
 
 /// Called before every write to the disk: tests look at the file as a killed process leaves it.
 using WriteObserver = std::function<void()>;
@@ -38,7 +39,7 @@ public:
   /// Throws SolverError when the file cannot be written any more (a full disk).
   void append(double time, std::span<const double> values);
 
-  /// Brings all samples to disk.
+  /// Writes all samples to disk.
   void flush();
 
   /// Writes samples that have waited for half a second: to be called where samples are rare.

@@ -28,7 +28,7 @@ public:
   /// Paths of all datasets, in the order of their names.
   std::vector<std::string> datasets() const;
 
-  bool has(const std::string& member) const; ///< of the root group
+  bool has(const std::string& member) const; ///< true if the root group has this member
 
   /// Attributes of a group or dataset by name, "/" for those of the file; without references.
   std::vector<std::pair<std::string, Value>> attributes(const std::string& object) const;
@@ -38,7 +38,7 @@ public:
   /// Shape of the first `rows` rows of a dataset of real numbers, as `read` gives them.
   Shape shape_of_rows(const std::string& dataset, unsigned long long rows) const;
 
-  /// The numbers themselves, row by row.
+  /// Reads the numbers, row by row.
   void read(const std::string& dataset, const Shape& rows, double* out) const;
 
 private:

@@ -29,8 +29,8 @@ public:
       add(channel.path, static_cast<std::size_t>(channel.width));
   }
 
-  std::size_t width() const { return width_; } ///< with the time
-  std::size_t rows() const { return rows_; }   ///< of the shortest column
+  std::size_t width() const { return width_; } ///< number of columns with the time
+  std::size_t rows() const { return rows_; }   ///< number of rows of the shortest column
 
   /// Rows first .. first + count - 1, one after the other.
   std::vector<double> block(std::size_t first, std::size_t count) const {

@@ -18,7 +18,7 @@ public:
   /// Appends the rows to another file of the same channels.
   void copy(ResultsFile& to) const;
 
-  /// Removes what was renamed, after the copy.
+  /// Removes the renamed file, after the copy.
   void drop() const;
 
 private:

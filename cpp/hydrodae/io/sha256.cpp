@@ -65,8 +65,9 @@ void take_block(State& state, const unsigned char* block) {
 }
 
 #if defined(__x86_64__)
-/// The same by the SHA extensions of x86 (Intel 64 manual, vol. 2: SHA256RNDS2, SHA256MSG1,
-/// SHA256MSG2): four rounds at a time, the state as the words (A, B, E, F) and (C, D, G, H).
+/// Takes one block with the SHA extensions of x86 (Intel 64 manual, vol. 2: SHA256RNDS2,
+/// SHA256MSG1, SHA256MSG2): four rounds at a time, the state as the words (A, B, E, F) and
+/// (C, D, G, H).
 __attribute__((target("sha,sse4.1"))) void take_block_by_instructions(State& state,
                                                                       const unsigned char* block) {
   const auto load = [](const void* from) __attribute__((target("sha,sse4.1"))) {
@@ -96,7 +97,7 @@ __attribute__((target("sha,sse4.1"))) void take_block_by_instructions(State& sta
   _mm_storeu_si128(reinterpret_cast<__m128i*>(state.data() + 4), _mm_alignr_epi8(dchg, feba, 8));
 }
 
-/// Has this machine these instructions? (CPUID leaf 7: bit 29 of EBX)
+/// Returns whether this machine has these instructions (CPUID leaf 7: bit 29 of EBX).
 bool has_instructions() {
   unsigned a = 0, b = 0, c = 0, d = 0;
   return __get_cpuid_count(7, 0, &a, &b, &c, &d) != 0 && (b >> 29 & 1) != 0;

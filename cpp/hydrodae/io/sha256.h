@@ -6,7 +6,7 @@ namespace hydrodae::io {
 /// SHA-256 of a file's bytes as 64 hexadecimal digits. Throws CaseError when it cannot be read.
 std::string sha256_of_file(const std::string& path);
 
-/// Of a text.
+/// SHA-256 of a text.
 /// @param instructions  false: without those of the processor for it
 std::string sha256_of_text(const std::string& text, bool instructions = true);
 

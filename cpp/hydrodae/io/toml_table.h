@@ -13,17 +13,17 @@
 
 namespace hydrodae::io {
 
-/// A table and how messages call it.
+/// Table with its name in messages.
 struct Table {
   const toml::table& node;
   std::string label; ///< "[[body]] 'flap1'"
   std::string path;  ///< "body.flap1"
   FilePlace place;
   std::string kind; ///< "body", "body.initial"; "" for the case itself
-  std::string type; ///< of the entry, "" without
+  std::string type; ///< type of the entry, "" without one
 };
 
-/// By key path, for messages of later checks.
+/// Places by key path, for messages of later checks.
 using Places = std::map<std::string, FilePlace>;
 
 /// Throws CaseError on the first key of the table that is not in `valid`; the message lists these.

@@ -38,7 +38,7 @@ std::string in_unit(const Key& key) {
   refuse(key, "expected " + expected + ", got " + found(node));
 }
 
-/// What `x` should have been.
+/// Text of the allowed range of `x`.
 std::string range_text(const Range& range, double x) {
   const bool low = std::isfinite(range.min),
              high = std::isfinite(range.max) && (!range.far_max || x > range.max);

@@ -13,7 +13,7 @@
 
 namespace hydrodae::io {
 
-/// What a value must be, and where it stands.
+/// Description of an expected value and its place.
 struct Key {
   std::string_view name;
   std::string_view unit;
@@ -24,7 +24,7 @@ struct Key {
   std::string label = {}; ///< "key 'mass' in [[body]] 'flap1'"
 };
 
-/// In the case file, or "--set solver.rtol" for a value that was given on the command line.
+/// Place in the case file, or "--set solver.rtol" for a value from the command line.
 FilePlace place_of(const toml::source_region& source);
 
 /// Each throws CaseError on a wrong type, length, range or word.

@@ -1,5 +1,5 @@
 #pragma once
-/// The free motions of joints: value, gradient and curvature, beside those of the rows in rows.h.
+/// Free motions of joints: value, gradient and curvature (rows.h has the constraint rows).
 
 #include "hydrodae/joint/types.h"
 
@@ -17,8 +17,8 @@ template <class S> Row<S> stretch_row(const Marker& A, const Marker& B, const Ge
   return {s, apart_gradient<S>(A, B, g, d) / s};
 }
 
-/// Gradient of s where the points coincide and part by the velocities u (12 numbers): along their
-/// motion, its limit on the way there; zero at rest.
+/// Gradient of s where the points coincide and separate with the velocities u (12 numbers): its
+/// limit along their motion; zero at rest.
 template <class S>
 Vec12<S> parting_gradient(const Marker& A, const Marker& B, const Geometry<S>& g,
                           const Vec12<S>& u) {
@@ -40,7 +40,7 @@ template <class S> Row<S> travel_row(const Marker& A, const Marker& B, const Geo
   return {f.value, place_gradient<S>(f.gradient, B, g)};
 }
 
-/// The angle of a motion that is one.
+/// Angle of a motion that is a rotation.
 constexpr TurnAngle turn_angle(const FreeMotion& motion) {
   return motion.kind == FreeMotion::Kind::turns ? turn_about_a(motion.axis)
                                                 : turn_about_b(motion.axis);

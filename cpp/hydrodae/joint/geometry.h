@@ -1,7 +1,7 @@
 #pragma once
-/// Two markers and what joint rows see of them. The gradient of a row is taken with respect to the
-/// virtual displacements xi = (r_A, phi_A, r_B, phi_B), the translations in world axes, the
-/// rotations in body axes; the same 12 numbers multiply the velocities (v_A, w_A, v_B, w_B).
+/// Two markers, and the geometry that joint rows need. The gradient of a row is with respect to the
+/// virtual displacements xi = (r_A, phi_A, r_B, phi_B), translations in world axes, rotations in
+/// body axes; the same 12 numbers multiply the velocities (v_A, w_A, v_B, w_B).
 
 #include <memory>
 
@@ -21,12 +21,12 @@ inline constexpr int rA = 0, pA = 3, rB = 6, pB = 9; ///< first entries of the f
 /// A frame carried by a body (or by the ground, body -1, whose frame is the world).
 struct Marker {
   int body = -1;
-  Vector3 point = Vector3::Zero();    ///< from the centre of gravity, body axes [m]
+  Vector3 point = Vector3::Zero();    ///< position relative to the centre of gravity, body axes [m]
   Matrix3 axes = Matrix3::Identity(); ///< columns: marker axes in body axes
-  std::shared_ptr<const Path> path;   ///< of a path joint: the curve, points like `point`
+  std::shared_ptr<const Path> path;   ///< curve of a path joint, with points given like `point`
 };
 
-/// What every row of a joint needs of the poses of its two bodies.
+/// Geometry of a joint from the poses of its two bodies:
 ///   N = R_A^T R_B,   e = R_A^T (r_B + R_B s_B - r_A): the origin of B seen from body A [m]
 template <class S> struct Geometry {
   Mat3<S> R_A, R_B, N;
@@ -44,13 +44,13 @@ Geometry<S> geometry(const Marker& b, const Vec3<S>& r_A, const Mat3<S>& R_A, co
   return g;
 }
 
-/// Numbers of a joint that its rows need.
+/// Parameters of the rows of a joint.
 struct Parameters {
   double length = 1.0; ///< L of `distance` [m]
   double pitch = 1.0;  ///< P of `screw` [m per turn]
 };
 
-/// The value of angle + 2 pi k nearest to `reference`.
+/// Value of angle + 2 pi k nearest to `reference`.
 template <class S> S nearest_turn(const S& angle, double reference) {
   return angle + S(2.0 * pi * std::round((reference - value_of(angle)) / (2.0 * pi)));
 }
@@ -72,7 +72,7 @@ Vec12<S> apart_gradient(const Marker& A, const Marker& B, const Geometry<S>& g, 
   return gradient;
 }
 
-/// Gradient of a function of the place e of B's marker seen from A, whose gradient there is a:
+/// Gradient of a function of the place e of marker B relative to A, whose gradient by e is a:
 ///   [-R_A a, a x e, R_A a, s_B x N^T a]
 template <class S>
 Vec12<S> place_gradient(const Vec3<S>& a, const Marker& B, const Geometry<S>& g) {
@@ -89,7 +89,7 @@ Matrix12 along_curvature(const Vector3& a, const Marker& B, const Geometry<doubl
 Matrix12 place_curvature(const Vector3& a, const Matrix3& H, const Marker& B,
                          const Geometry<double>& g);
 
-/// Load on body B of a constraint that loads both bodies with `load` (12 numbers, as a gradient
+/// Reaction on body B of a constraint that loads both bodies with `load` (12 numbers, a gradient
 /// times its multiplier): force along the axes of marker A, moment about the origin of marker B
 /// along the same axes.
 ///   f = A^T R_A^T load_r,   m = A^T N (load_phi - s_B x R_B^T load_r)

@@ -10,10 +10,11 @@ namespace hydrodae::joint {
 
 namespace {
 
-constexpr double sharpest = 60.0 * pi / 180.0; ///< turn of the tangent from point to point [rad]
-constexpr double bent = 0.25;                  ///< least chord over arc of two neighbours
-/// Distance of two branches over the spacing of samples, h. A point e off the curve is at most
-/// h/2 + e from a sample of its own branch; 2 h - e is more while e < 3/4 h.
+/// Largest turn of the tangent from point to point [rad]
+constexpr double sharpest = 60.0 * pi / 180.0;
+constexpr double bent = 0.25; ///< least chord over arc of two neighbours
+/// Least distance of two branches over the spacing h of samples. A point at distance e from the
+/// curve is at most h/2 + e from a sample of its own branch; 2 h - e is more while e < 3/4 h.
 constexpr double apart = 2.0;
 
 /// Nodes and weights of Gauss and Legendre on [-1, 1].
@@ -81,7 +82,7 @@ std::optional<std::string> Path::flaw(const std::vector<Vector3>& points) {
 
 Path::Path(const std::vector<Vector3>& points) : knots_(chord_lengths(points)) {
   const std::size_t n = points.size();
-  // Vectors across: the one before, made perpendicular to the tangent here.
+  // Normal vectors: the last one, made perpendicular to the tangent here.
   const std::vector<Vector3> t = tangents(knots_, points);
   std::vector<VectorX> values;
   Vector3 across = t.front().unitOrthogonal();
@@ -129,7 +130,7 @@ const Path::Piece& Path::piece(double s) const {
   return pieces_[static_cast<std::size_t>(above - knots_.begin())];
 }
 
-/// The nearest sample, then Newton's method, kept to the neighbourhood of that sample.
+/// Nearest sample, then Newton's method within its neighbourhood.
 double Path::nearest(const Vector3& d) const {
   const Sample* best = &samples_.front();
   for (const Sample& sample : samples_)
@@ -141,7 +142,7 @@ double Path::nearest(const Vector3& d) const {
     const Jet<double> at = jet<double>(s);
     const Vector3 w = d - at[0].head<3>(), c1 = at[1].head<3>();
     const double speed2 = c1.squaredNorm(), D = speed2 - w.dot(at[2].head<3>());
-    // Beyond the centre of curvature D is negative: then a step downhill.
+    // Beyond the centre of curvature D is negative: a descent step.
     const double step = std::clamp(w.dot(c1) / (D > 0.1 * speed2 ? D : speed2), -reach, reach);
     s += step;
     if (std::abs(step) < 1e-14 * knots_.back())

@@ -1,5 +1,5 @@
 #pragma once
-/// A curve carried by a body, along which a point of another body slides.
+/// Curve carried by a body, along which a point of another body slides.
 ///
 /// c(s): natural cubic spline through the given points over the chord length s, going on straight
 /// beyond its ends (twice continuously differentiable everywhere). The place of a point d is the s
@@ -32,16 +32,17 @@ template <class S> struct PointFunction {
 
 class Path {
 public:
-  /// What keeps these points from being a path, if anything: fewer than two, equal neighbours,
-  /// sharp bends, or a curve that comes back near itself, so that its nearest point is not clear.
+  /// Reason why these points are no path, or nothing: fewer than two, equal neighbours, sharp
+  /// bends, or a curve that returns near itself, so that its nearest point is not unique.
   static std::optional<std::string> flaw(const std::vector<Vector3>& points);
 
-  /// Points without a flaw.
+  /// @param points  points without a flaw
   explicit Path(const std::vector<Vector3>& points);
 
-  double length() const { return samples_.back().arc; } ///< from the first point to the last [m]
+  /// Arc length from the first point to the last [m]
+  double length() const { return samples_.back().arc; }
 
-  /// n_i . w [m], i = 0, 1: how far d is off the curve.
+  /// Distance n_i . w of d from the curve [m], i = 0, 1.
   template <class S> PointFunction<S> across(int i, const Vec3<S>& d) const;
   Matrix3 across_hessian(int i, const Vector3& d) const;
 
@@ -69,7 +70,7 @@ private:
   };
   /// (c, n_1, n_2) and three derivatives by s.
   template <class S> using Jet = std::array<Vec9<S>, 4>;
-  /// The place of d and what follows from it.
+  /// Place of d on the curve, with derived values.
   template <class S> struct Place {
     S s, D;
     Jet<S> at;
@@ -103,7 +104,7 @@ template <class S> Path::Place<S> Path::place(const Vec3<S>& d) const {
   const Vector3 value(value_of(d[0]), value_of(d[1]), value_of(d[2]));
   Place<S> p;
   p.s = S(nearest(value));
-  // One more step of Newton's method, which brings the derivatives along.
+  // One more Newton step, which also gives the derivatives.
   const auto complete = [&] {
     p.at = jet<S>(p.s);
     p.w = d - p.curve(0);

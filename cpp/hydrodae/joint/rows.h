@@ -94,19 +94,19 @@ struct TurnAngle {
     return {atan2(sine.value, cosine.value),
             (cosine.value * sine.gradient - sine.value * cosine.gradient) / norm2};
   }
-  /// The gradient (c ds - s dc) / n2, n2 = c^2 + s^2, differentiated once more.
+  /// Second derivatives: the gradient (c ds - s dc) / n2, n2 = c^2 + s^2, differentiated once more.
   Matrix12 curvature(const Marker& A, const Marker& B, const Geometry<double>& g) const;
 };
 
-/// Angle about axis i of marker A: of b_j in the plane normal to a_i, atan2(a_k . b_j, a_j . b_j)
-/// with (i, j, k) cyclic.
+/// Angle about axis i of marker A: angle of b_j in the plane normal to a_i, atan2(a_k . b_j, a_j .
+/// b_j) with (i, j, k) cyclic.
 constexpr TurnAngle turn_about_a(int i) {
   const int j = (i + 1) % 3, k = (i + 2) % 3;
   return {{j, j}, {k, j}};
 }
 
-/// Angle about axis i of marker B: of a_k seen from B, atan2(a_k . b_j, a_k . b_k) with (i, j, k)
-/// cyclic.
+/// Angle about axis i of marker B: angle of a_k seen from B, atan2(a_k . b_j, a_k . b_k) with (i,
+/// j, k) cyclic.
 constexpr TurnAngle turn_about_b(int i) {
   const int j = (i + 1) % 3, k = (i + 2) % 3;
   return {{k, k}, {k, j}};
@@ -165,8 +165,8 @@ struct AcrossRow {
 };
 constexpr AcrossRow across(int i) { return {i}; }
 
-/// s - P theta / 2 pi = 0 [m]: slide s and turn theta along and about a_z, P: advance a turn. theta
-/// is on the turn that s gives.
+/// Screw s - P theta / 2 pi = 0 [m]: displacement s and rotation theta along and about a_z; P:
+/// advance per turn. s selects the turn of theta.
 struct ScrewRow {
   static constexpr bool is_angle = false, needs_turns = true;
   static constexpr TurnAngle turn = turn_about_a(Z);
@@ -208,17 +208,17 @@ Row<S> basic_row(const BasicRow& row, const Marker& A, const Marker& B, const Pa
 Matrix12 basic_curvature(const BasicRow& row, const Marker& A, const Marker& B, const Parameters& p,
                          const Geometry<double>& g);
 
-/// Is the value of the row an angle (or the product of two axes), and no length?
+/// Returns whether the value of the row is an angle (or the product of two axes), not a length.
 inline bool is_angle(const BasicRow& row) {
   return std::visit([](const auto& kind) { return kind.is_angle; }, row);
 }
 
-/// Does the row hold a rotation?
+/// Returns whether the row restricts a rotation.
 inline bool needs_turns(const BasicRow& row) {
   return std::visit([](const auto& kind) { return kind.needs_turns; }, row);
 }
 
-/// Text for the quantity that a row holds: "gap along x".
+/// Text for the value of a row: "gap along x".
 inline std::string row_name(const BasicRow& row) {
   return std::visit([](const auto& kind) { return kind.name(); }, row);
 }

@@ -11,8 +11,8 @@
 
 namespace hydrodae::joint {
 
-/// A motion that a joint leaves free and that has a coordinate of its own, along or about an axis
-/// of marker A (`turns_b`: about an axis of marker B).
+/// Free motion of a joint with its own coordinate, along or about an axis of marker A (`turns_b`:
+/// about an axis of marker B).
 struct FreeMotion {
   enum class Kind { turns, turns_b, slides, stretches, travels } kind = Kind::turns;
   int axis = Z;
@@ -20,8 +20,9 @@ struct FreeMotion {
 };
 constexpr FreeMotion turns(Axis i) { return {FreeMotion::Kind::turns, i}; }
 constexpr FreeMotion turns_b(Axis i) { return {FreeMotion::Kind::turns_b, i}; }
-constexpr FreeMotion stretches() { return {FreeMotion::Kind::stretches, Z}; } ///< |B - A|
-constexpr FreeMotion travels() { return {FreeMotion::Kind::travels, Z}; }     ///< along the curve
+constexpr FreeMotion stretches() { return {FreeMotion::Kind::stretches, Z}; } ///< distance |B - A|
+/// Arc length along the curve
+constexpr FreeMotion travels() { return {FreeMotion::Kind::travels, Z}; }
 constexpr FreeMotion slides(Axis i) { return {FreeMotion::Kind::slides, i}; }
 
 struct JointType {
@@ -34,23 +35,23 @@ struct JointType {
   bool turns() const { return has(true); }
   bool slides() const { return has(false); }
   bool welds() const { return rows.size() == 6; }
-  /// Does it leave a slide along one axis alone?
+  /// Returns whether its only translation is along one axis.
   bool guides() const {
     return rows.size() == 5 && motions.size() == 1 && motions[0].kind == FreeMotion::Kind::slides;
   }
-  /// Does it join a point of A to another of B?
+  /// Returns whether it connects two different points of A and B.
   bool has_two_points() const {
     for (const FreeMotion& motion : motions)
       if (motion.kind == FreeMotion::Kind::stretches)
         return true;
     return has_row<DistanceRow>();
   }
-  /// Has it a row of this kind?
+  /// Returns whether it has a row of this kind.
   template <class Kind> bool has_row() const {
     return std::any_of(rows.begin(), rows.end(),
                        [](const BasicRow& row) { return std::holds_alternative<Kind>(row); });
   }
-  /// Has it a row that holds a rotation?
+  /// Returns whether it has a row that restricts a rotation.
   bool holds_turns() const { return std::any_of(rows.begin(), rows.end(), needs_turns); }
 
 private:
@@ -62,7 +63,7 @@ private:
   }
 };
 
-/// The table. A new joint made of the basic rows is one line here, and nothing else.
+/// Joint table. A new joint made of the basic rows is one more line here.
 inline const std::vector<JointType>& joint_types() {
   static const std::vector<JointType> table = {
       {"spherical",
@@ -129,7 +130,7 @@ inline const std::vector<JointType>& joint_types() {
   return table;
 }
 
-/// The row of the table with this name, or null.
+/// Joint type with this name, or null.
 inline const JointType* find_joint_type(std::string_view name) {
   for (const JointType& type : joint_types())
     if (type.name == name)

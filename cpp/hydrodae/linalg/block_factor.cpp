@@ -8,9 +8,9 @@ namespace hydrodae::linalg {
 
 namespace {
 
-constexpr double least_pivot = 1e-15; ///< at most this part of its entry is rounding
-/// Likewise of S without eD. More keeps ten of sixteen digits, so that one refinement of a solution
-/// restores them all; less may be rows that follow from each other, which eD has to keep apart.
+constexpr double least_pivot = 1e-15; ///< a pivot below this part of its diagonal entry is rounding
+/// Smallest pivot of S without eD, as part of its entry. Above it ten of sixteen digits are exact,
+/// and one refinement restores the rest. Below it rows may be redundant, and eD must separate them.
 constexpr double regular = 1e-6;
 
 } // namespace
@@ -46,10 +46,10 @@ BlockFactor::BlockFactor(const std::vector<Index>& column_start, const std::vect
   find_rows(column_start, row);
 }
 
-/// Rows that have a set of bodies in common are one set.
+/// Rows that act on a common set of bodies form one set.
 void BlockFactor::find_rows(const std::vector<Index>& column_start, const std::vector<Index>& row) {
   const auto n_sets = std::ssize(bodies_);
-  Sets sets(n_sets + n_ - n_u_); // of bodies, then rows
+  Sets sets(n_sets + n_ - n_u_); // sets of bodies, then of rows
   std::vector<std::vector<Index>> touched(bodies_.size());
   for (Index c = 0; c < n_u_; ++c) {
     const std::size_t b = set_of_[static_cast<std::size_t>(c)];
@@ -100,7 +100,7 @@ void BlockFactor::find_places(const std::vector<Index>& column_start,
       if (row[k] >= n_u_) {
         const auto at = std::lower_bound(b.local.begin(), b.local.end(), of_row);
         b.gradient.push_back({k, own * b.m + (at - b.local.begin())});
-      } else if (of_row <= own) { // the upper triangle
+      } else if (of_row <= own) { // upper triangle only
         b.mass.push_back({k, of_row * b.n + own});
       }
     }
@@ -122,7 +122,7 @@ double BlockFactor::least_work() const {
   double sum = 0.0;
   for (const Bodies& b : bodies_)
     if (const std::size_t n = b.unknown.size(); b.mass.size() == n * (n + 1) / 2)
-      sum += static_cast<double>(n * n * n) / 3.0; // by LU
+      sum += static_cast<double>(n * n * n) / 3.0; // unsymmetric block: by LU
   return sum;
 }
 
@@ -163,7 +163,7 @@ bool BlockFactor::factorise(const std::vector<double>& values, const VectorX& da
   return factorise_rows(nullptr) || factorise_rows(&damping);
 }
 
-/// S, with eD where it is given.
+/// Factorises S, with eD if it is given.
 bool BlockFactor::factorise_rows(const VectorX* damping) {
   for (Rows& r : rows_) {
     r.s.setZero();
@@ -191,7 +191,7 @@ bool BlockFactor::factorise_rows(const VectorX* damping) {
   return true;
 }
 
-/// M a + G^T x = f, G a - eD x = g: with h = U^-T f, S x = W^T h - g, a = U^-1 (h - W x).
+/// Solves M a + G^T x = f, G a - eD x = g: with h = U^-T f, S x = W^T h - g, a = U^-1 (h - W x).
 void BlockFactor::solve(double* v) {
   for (Rows& r : rows_)
     for (std::size_t i = 0; i < r.unknown.size(); ++i)

@@ -1,12 +1,11 @@
 #pragma once
-/// Factors of the saddle-point matrix by dense blocks:
+/// Factors of the saddle-point matrix in dense blocks:
 ///
-///   [ M   G^T ]   M = U^T U of each set of bodies that feel each other's acceleration,
-///   [ G   -eD ]   S = G M^-1 G^T (+ eD) of each set of rows that have such a set in common.
+///   [ M   G^T ]   M = U^T U for each set of bodies that act on each other's acceleration,
+///   [ G   -eD ]   S = G M^-1 G^T (+ eD) for each set of rows on such a common set.
 ///
-/// For a few large sets, which a general sparse matrix costs ten times as much. M must be
-/// symmetric; where it is not, the residual shows it, and whoever solves with these factors looks
-/// at the residual.
+/// Suited to few large sets, for which a general sparse factorisation takes ten times as long. M
+/// must be symmetric; otherwise the residual is large, and the caller must check it.
 
 #include <vector>
 
@@ -17,20 +16,21 @@ namespace hydrodae::linalg {
 
 class BlockFactor {
 public:
-  /// Compressed columns (n + 1,) and rows (nonzeros,) of the matrix, whose first `n_u` are M.
-  /// @param together of each of the first `n_u`: those with the same number are one set
+  /// @param column_start, row  compressed columns (n + 1,) and rows (nonzeros,) of the matrix
+  /// @param n_u  number of unknowns of M, which come first
+  /// @param together  set number of each of the first `n_u` unknowns
   BlockFactor(const std::vector<Index>& column_start, const std::vector<Index>& row, Index n_u,
               const std::vector<Index>& together, const dense::Kernels& kernels = dense::kernels());
 
-  /// Multiply-adds of a factorisation.
+  /// Number of multiply-adds of a factorisation.
   double work() const;
 
-  /// Those of any other factorisation at least: of the sets whose block of M is full.
+  /// Lower bound of the multiply-adds of any other factorisation, from sets with a full block of M.
   double least_work() const;
 
-  /// From the values (nonzeros,) of the matrix with e = 0, and eD (n - n_u,), which is left out
-  /// where S is regular without it.
-  /// @return false when M is not positive definite
+  /// Factorises the values (nonzeros,) of the matrix with e = 0, and eD (n - n_u,), which is
+  /// omitted if S is regular without it.
+  /// @return false if M is not positive definite
   bool factorise(const std::vector<double>& values, const VectorX& damping);
 
   /// Overwrites b (n,) with the solution.
@@ -38,24 +38,24 @@ public:
 
 private:
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  struct Place { ///< of an entry of the matrix in that of a set
+  struct Place { ///< place of a matrix entry in the matrix of a set
     std::size_t value = 0;
     Index offset = 0;
   };
-  struct Bodies {               ///< that feel each other's acceleration
-    std::vector<Index> unknown; ///< (n,) in the matrix
-    std::vector<Index> local;   ///< (m,) its rows, in those of the set of rows
+  struct Bodies {               ///< set of bodies that act on each other's acceleration
+    std::vector<Index> unknown; ///< (n,) unknowns in the matrix
+    std::vector<Index> local;   ///< (m,) its rows, numbered in the set of rows
     std::vector<Place> mass, gradient;
-    std::size_t rows = 0; ///< the set of its rows
-    bool whole = false;   ///< it has all rows of the set, in order
-    Index n = 0, m = 0;   ///< padded
+    std::size_t rows = 0; ///< number of its set of rows
+    bool whole = false;   ///< true: it has all rows of the set, in order
+    Index n = 0, m = 0;   ///< padded sizes
     RowMajor u, w;        ///< U; W = U^-T G^T
-    RowMajor gram;        ///< W^T W, where it is not whole
+    RowMajor gram;        ///< W^T W, if not `whole`
     VectorX x, sum;       ///< (n,), (m,) scratch
   };
   struct Rows {
     std::vector<Index> unknown;
-    Index m = 0; ///< padded
+    Index m = 0; ///< padded size
     RowMajor s;
     VectorX x;
   };
@@ -68,8 +68,9 @@ private:
   Index n_u_ = 0, n_ = 0;
   std::vector<Bodies> bodies_;
   std::vector<Rows> rows_;
-  std::vector<std::size_t> set_of_; ///< (n,) of an unknown: among the bodies, or among the rows
-  std::vector<Index> local_;        ///< (n,) its number there
+  /// (n,) For each unknown the number of its set: bodies, or constraint rows.
+  std::vector<std::size_t> set_of_;
+  std::vector<Index> local_; ///< (n,) number within that set
   bool allocated_ = false;
 };
 

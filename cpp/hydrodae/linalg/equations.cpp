@@ -40,7 +40,7 @@ Equations::Equations(const system::Regime& s, const system::Pattern& p, double t
   find_multipliers();
 }
 
-/// Velocity rows G u with the masses of u; position rows by the positions themselves.
+/// Finds the entries of G: velocity rows G u with the masses of u; position rows by the positions.
 void Equations::find_multipliers() {
   multipliers_.resize(static_cast<std::size_t>(system.sigma0 - system.lambda0));
   std::vector<Index> mass(static_cast<std::size_t>(system.n), -1);
@@ -156,13 +156,14 @@ double Equations::time_scale() const {
 }
 
 std::string Equations::diagnosis(double t, const VectorX& y, const VectorX& yp) {
-  const std::string trouble = system::unknown_load(system, workspace_); // of the last attempt
+  // trouble of the last attempt
+  const std::string trouble = system::unknown_load(system, workspace_);
   VectorX values(system.n);
   system::residual<double>(system, workspace_, t, y.data(), yp.data(), values.data());
   std::string text = trouble.empty() ? "" : "\n  the last step tried meets " + trouble;
   text += "\n  worst equations, relative to their scale: " +
           worst(values.cwiseQuotient(system.row_scale), system.row_names);
-  // A loop that locks shows in reactions that grow without bound.
+  // A locked loop shows in reactions that grow without bound.
   values.setZero();
   values.segment(system.lambda0, system.n_lambda) =
       y.segment(system.lambda0, system.n_lambda)

@@ -1,6 +1,6 @@
 #pragma once
-/// The equations as the integrators see them: residual, Jacobian, weights, and words for what goes
-/// wrong. One scratch memory for all; counts the calls.
+/// Equations in the form that integrators use: residual, Jacobian, weights and messages. They share
+/// one scratch memory and count the calls.
 
 #include <string>
 
@@ -16,56 +16,56 @@ public:
   const system::Regime& system;
   const system::Pattern& pattern;
   const double rtol;
-  system::JacobianParts parts; ///< of the last `jacobian`
+  system::JacobianParts parts; ///< result of the last `jacobian`
   Statistics statistics;
 
-  /// F(t, y, y'); false when a value is not finite.
+  /// Computes F(t, y, y'); returns false if a value is not finite.
   bool residual(double t, const VectorX& y, const VectorX& yp, VectorX& r);
 
-  /// The rows of q, u and z alone, where lambda, mu and sigma are zero.
+  /// Computes only the rows of q, u and z, for zero lambda, mu and sigma.
   bool free_residual(double t, const VectorX& y, const VectorX& yp, VectorX& r);
 
-  /// The rows of the constraints alone, those of lambda and mu.
+  /// Computes only the rows of the constraints, those of lambda and mu.
   bool constraint_residual(double t, const VectorX& y, const VectorX& yp, VectorX& r);
 
-  /// Solves for the algebraic unknowns of elements by the rest of y; false where there is no
+  /// Solves for the algebraic unknowns of elements at the rest of y; returns false without a
   /// solution.
   bool solve_algebraic(double t, VectorX& y);
 
-  /// dF/dy and dF/dy' into `parts`.
+  /// Computes dF/dy and dF/dy' into `parts`.
   void jacobian(double t, const VectorX& y, const VectorX& yp);
 
-  /// The same into `out`, where the pattern `own` holds the mass matrix and the constraint rows
-  /// alone: it counts as no Jacobian.
+  /// Computes the mass matrix and constraint rows of the pattern `own` into `out`; not counted as a
+  /// Jacobian.
   void mass_and_rows(double t, const VectorX& y, const VectorX& yp, const system::Pattern& own,
                      system::JacobianParts& out);
 
-  /// e D / |alpha| for each multiplier, to be added to the diagonal of a Newton matrix
-  /// dF/dy + alpha dF/dy' made of the last `jacobian`: D = diag(G M^-1 G^T) roughly, e tiny. In a
-  /// singular pose, where the multipliers are not unique, it keeps the matrix regular; the solution
-  /// that the iteration tends to is that of the equations unchanged (the proximal iteration of Bayo
-  /// and Ledesma, Nonlinear Dynamics 9 (1996) 113).
+  /// Regularisation e D / |alpha| of each multiplier, for the diagonal of a Newton matrix dF/dy +
+  /// alpha dF/dy' of the last `jacobian`: D is about diag(G M^-1 G^T), e tiny. It keeps the matrix
+  /// regular in singular poses, where multipliers are not unique. The iteration still converges to
+  /// the solution of the unchanged equations (proximal iteration: Bayo and Ledesma, Nonlinear
+  /// Dynamics 9 (1996) 113).
   void regularisation(double alpha, VectorX& out) const;
 
-  /// What belongs to accepted steps moves on (angles over turns).
+  /// Takes an accepted step, which sets the turns of angles.
   void accept(double t, const VectorX& y, const VectorX& yp);
 
-  /// Weights 1 / (rtol (scale + |y|)); |y| only where the origin means something.
+  /// Weights 1 / (rtol (scale + |y|)); |y| only if its origin is meaningful.
   void weights(const VectorX& y, VectorX& w) const;
 
-  /// Root mean square of w e over the positions, velocities and memory states of a group of
-  /// bodies, of the group where it is largest: none hides behind the number of the others.
+  /// Largest root mean square of w e over the positions, velocities and memory states of one group
+  /// of bodies, so that large groups do not hide small ones.
   double norm(const VectorX& w, const VectorX& e) const;
 
   /// Longest time scale of the bodies [s].
   double time_scale() const;
 
-  /// "worst equations ...; largest reactions ..." at y, y', for messages.
+  /// Message "worst equations ...; largest reactions ..." at y, y'.
   std::string diagnosis(double t, const VectorX& y, const VectorX& yp);
 
 private:
   struct Multiplier {
-    std::vector<std::pair<std::size_t, Index>> gradient; ///< entry of G, of the mass (-1: one)
+    std::vector<std::pair<std::size_t, Index>> gradient; ///< entry of G, and of the mass (-1: one)
   };
   void find_multipliers();
 
@@ -75,19 +75,18 @@ private:
   system::JacobianWorkspace jacobian_workspace_;
 };
 
-/// First step [s]: short enough for order 1 to meet the tolerance, sqrt(tolerance) of the
-/// shortest time in which a body moves, or speeds up by, its own scale.
+/// First step [s]: order 1 meets the tolerance with sqrt(tolerance) times the shortest time in
+/// which a body moves, or accelerates, by its own scale.
 double first_step(const system::Regime& system, double rtol, const VectorX& y, const VectorX& yp);
 
-/// Square root of the mean of `squares` (lambda0,) over the group where it is largest; `sums` is
-/// scratch.
+/// Largest root mean of `squares` (lambda0,) over one group; `sums` is scratch.
 double largest_by_group(const system::Regime& system, const double* squares, VectorX& sums);
 
-/// "a (2.1), b (0.4)": the three largest entries of `values` by name.
+/// Text "a (2.1), b (0.4)": the three largest entries of `values` by name.
 std::string worst(const VectorX& values, const std::vector<std::string>& names);
 
-/// Near a singular pose the steps can shrink without ever failing: throws SolverError when the last
-/// 5000 steps brought next to nothing.
+/// Guard against steps that shrink without failing near a singular pose: throws SolverError if the
+/// last 5000 steps made almost no progress.
 class ProgressGuard {
 public:
   ProgressGuard(double start, double end, double time_scale)
@@ -102,8 +101,8 @@ public:
     state_.checked = t;
   }
   struct State {
-    long steps = 0;       ///< since the last look
-    double checked = 0.0; ///< time of it [s]
+    long steps = 0;       ///< number of steps since the last check
+    double checked = 0.0; ///< time of the last check [s]
   };
   const State& state() const { return state_; }
   void set(const State& state) { state_ = state; }

@@ -1,4 +1,4 @@
-/// Friction that its joint presses, in impacts.
+/// Friction with a bearing in impacts.
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +10,12 @@ namespace hydrodae::linalg {
 namespace {
 
 constexpr int most_sweeps = 1000;
-constexpr double impulse_balanced = 1e-13; ///< of the largest impulse
-constexpr double impulse_rounded = 1e-9;   ///< likewise, where it gets no smaller
-constexpr double held_rate = 1e-12; ///< by an impulse, of what a free body takes: the joint is held
+/// Accuracy of the balance, as part of the largest impulse
+constexpr double impulse_balanced = 1e-13;
+/// Accuracy accepted if the error gets no smaller, as part of the largest impulse
+constexpr double impulse_rounded = 1e-9;
+/// Rate per impulse of a held joint, as part of that of a free body
+constexpr double held_rate = 1e-12;
 
 } // namespace
 
@@ -35,13 +38,13 @@ double linalg::SaddlePoint::Pressed::rate_along(const system::Regime& s, std::si
 std::optional<double> linalg::SaddlePoint::Pressed::rub(const system::Regime& s, const VectorX& u,
                                                         VectorX& solution) {
   const auto n = static_cast<Index>(laws.size());
-  MatrixX gain(n, n); // rates along the joints by impulses along them
+  MatrixX gain(n, n); // rates along the joints per impulse along them
   VectorX before(n), free(n);
   std::vector<element::Bearing> bearings;
   for (Index k = 0; k < n; ++k) {
     const auto law = static_cast<std::size_t>(k);
     bearings.push_back(*port(s, law).bearing);
-    bearings.back().preload = bearings.back().small = 0.0; // no impulse is in them
+    bearings.back().preload = bearings.back().small = 0.0; // impulses have no preload
     see(s, law, solution.data(), start.data() + 6 * k);
     before[k] = rate_along(s, law, u.data());
     free[k] = before[k] + rate_along(s, law, solution.data());
@@ -55,7 +58,7 @@ std::optional<double> linalg::SaddlePoint::Pressed::rub(const system::Regime& s,
   for (int sweep = 0; sweep < most_sweeps && !found; ++sweep) {
     double change = 0.0;
     for (Index k = 0; k < n; ++k) {
-      if (!(gain(k, k) > held_rate * easiest)) // what strikes is this joint itself
+      if (!(gain(k, k) > held_rate * easiest)) // the impact is at this joint itself
         continue;
       reaction.segment<6>(6 * k) = start.segment<6>(6 * k);
       for (Index m = 0; m < n; ++m)

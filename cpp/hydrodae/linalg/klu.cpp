@@ -13,11 +13,11 @@ namespace hydrodae::linalg {
 
 namespace {
 
-constexpr double bad_pivots = 1e-8; ///< reciprocal pivot growth that asks for new pivots
-// Operations of a factorisation, and of them for each unknown, from which on another order is
-// tried.
+constexpr double bad_pivots = 1e-8; ///< reciprocal pivot growth below which new pivots are chosen
+// Operations of a factorisation, in total and for each unknown, above which another order is tried.
 constexpr double many = 1e5, many_each = 1e3;
-constexpr double ill_conditioned = 3.7e-11; ///< reciprocal condition that does, where asked for
+/// Reciprocal condition below which `careful` chooses new pivots
+constexpr double ill_conditioned = 3.7e-11;
 
 template <class Scalar> constexpr bool is_real = std::is_same_v<Scalar, double>;
 
@@ -30,12 +30,12 @@ template <class Scalar> struct SparseLu<Scalar>::Impl {
   klu_l_common common{};
   std::vector<SuiteSparse_long> start, row;
   std::vector<Scalar> values;
-  std::vector<Scalar> scaled; ///< the same, row by row times `factor`
-  std::vector<double> factor; ///< powers of two, which leave no rounding errors
+  std::vector<Scalar> scaled; ///< values times `factor`, row by row
+  std::vector<double> factor; ///< row factors, powers of two without rounding errors
   klu_l_symbolic* symbolic = nullptr;
   klu_l_numeric* numeric = nullptr;
 
-  bool chosen = false; ///< the order of the unknowns
+  bool chosen = false; ///< true: the order of the unknowns is final
   ~Impl() {
     drop();
     klu_l_free_symbolic(&symbolic, &common);
@@ -55,7 +55,8 @@ template <class Scalar> struct SparseLu<Scalar>::Impl {
                                                          symbolic, numeric, &common));
     return ok ? common.rgrowth : 0.0;
   }
-  /// By a cheap bound, and where that is low by a better estimate.
+  /// Returns whether the matrix is ill-conditioned: by a cheap bound, and if that is low by a
+  /// better estimate.
   bool ill() {
     if constexpr (is_real<Scalar>) {
       klu_l_rcond(symbolic, numeric, &common);
@@ -66,8 +67,8 @@ template <class Scalar> struct SparseLu<Scalar>::Impl {
     }
     return false;
   }
-  /// Rows by the largest entry that they had when pivots were last looked for: a division by the
-  /// largest of each new matrix would take longer than all else but the factorisation.
+  /// Scales rows by their largest entry at the last choice of pivots. A division by the largest
+  /// entry of each new matrix would take most of the time besides the factorisation.
   void find_scale() {
     std::vector<double> largest(static_cast<std::size_t>(size()), 0.0);
     for (std::size_t k = 0; k < values.size(); ++k) {
@@ -78,7 +79,7 @@ template <class Scalar> struct SparseLu<Scalar>::Impl {
     for (std::size_t i = 0; i < largest.size(); ++i)
       factor[i] = largest[i] > 0.0 ? std::exp2(-std::round(std::log2(largest[i]))) : 1.0;
   }
-  /// False where a value is not finite.
+  /// Scales the values; returns false if one is not finite.
   bool scale() {
     constexpr double largest = std::numeric_limits<double>::max();
     int bad = 0;
@@ -123,21 +124,22 @@ template <class Scalar> struct SparseLu<Scalar>::Impl {
       klu_zl_flops(symbolic, numeric, &common);
     return common.flops;
   }
-  /// The first order is that of a matrix whose rows were matched with its columns, which suits
-  /// chains. Where it fills much: that of the matrix as it is, which suits bodies that the water
-  /// couples, if it takes less work.
+  /// Chooses the order. The first one is that of a matrix with rows matched to columns, which suits
+  /// chains. If it has much fill-in, the order of the unmatched matrix is tried, which suits bodies
+  /// coupled by the water.
   void choose_order() {
     if (chosen)
       return;
     chosen = true;
     const double first = flops();
-    if (first < std::max(many, many_each * static_cast<double>(size()))) // chains fill little
+    // chains have little fill-in
+    if (first < std::max(many, many_each * static_cast<double>(size())))
       return;
     const klu_l_common usual = common;
     klu_l_symbolic* const old_symbolic = symbolic;
     klu_l_numeric* const old_numeric = numeric;
     common.btf = 0;
-    common.tol = 0.1; // not the small entries of the diagonal that nothing was matched with
+    common.tol = 0.1; // rejects small diagonal entries without a match
     symbolic = klu_l_analyze(size(), start.data(), row.data(), &common);
     numeric = nullptr;
     const bool better = symbolic && find_pivots() && flops() < 0.9 * first;
@@ -163,14 +165,14 @@ SparseLu<Scalar>::SparseLu(const std::vector<Index>& column_start, const std::ve
     : impl_(std::make_unique<Impl>()) {
   Impl& m = *impl_;
   klu_l_defaults(&m.common);
-  m.common.ordering = 0; // AMD: COLAMD fills more on these patterns
+  m.common.ordering = 0; // AMD: COLAMD has more fill-in on these patterns
   m.common.scale = -1;   // see Impl::find_scale
   m.start.assign(column_start.begin(), column_start.end());
   m.row.assign(row.begin(), row.end());
   m.values.resize(row.size());
   m.scaled.resize(row.size());
   const SuiteSparse_long n = m.size();
-  if (n == 0) // where nothing can move
+  if (n == 0) // nothing can move
     return;
   m.symbolic = klu_l_analyze(n, m.start.data(), m.row.data(), &m.common);
   if (!m.symbolic)

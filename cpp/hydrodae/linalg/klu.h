@@ -1,6 +1,6 @@
 #pragma once
-/// Sparse LU by KLU (Davis and Palamadai Natarajan, ACM TOMS 37 (2010) 36), real or complex: the
-/// order of the unknowns once, pivots once, after that only numbers, until the pivots go bad.
+/// Sparse LU by KLU (Davis and Palamadai Natarajan, ACM TOMS 37 (2010) 36), real or complex. The
+/// order of the unknowns is found once, pivots are reused until they become bad.
 
 #include <complex>
 #include <memory>
@@ -18,22 +18,21 @@ public:
   SparseLu(SparseLu&&) noexcept;
   SparseLu& operator=(SparseLu&&) = delete;
 
-  /// The values (nonzeros,), to be filled before `factorise`.
+  /// Values (nonzeros,), to be filled before `factorise`.
   std::vector<Scalar>& values();
 
-  /// False when the matrix is singular or holds values that are not finite. `careful`: new pivots
-  /// also where a real matrix is ill-conditioned with those of before.
+  /// Factorises; returns false if the matrix is singular or has values that are not finite.
+  /// `careful`: chooses new pivots also if a real matrix is ill-conditioned with the old ones.
   bool factorise(bool careful = false);
 
-  /// With the pivots of before, which are not looked at: whoever calls it judges the residual of a
-  /// solution, and calls `factorise` where that is large. False where they are missing or do
-  /// not fit.
+  /// Factorises with the old pivots, unchecked: the caller must check the residual of a solution,
+  /// and call `factorise` if it is large. Returns false if there are no pivots or they do not fit.
   bool refactorise();
 
   /// Overwrites b (n,) with the solution.
   void solve(Scalar* b);
 
-  /// Operations of a factorisation and of a solution, of numbers of this kind.
+  /// Operations of a factorisation and of a solution, in scalars of this type.
   struct Work {
     double factorise = 0.0, solve = 0.0;
   };

@@ -34,13 +34,13 @@ template <class Scalar> void NewtonMatrix<Scalar>::find_slots(const system::Patt
   });
 }
 
-/// x y, of complex numbers without a look at whether they are finite.
+/// Product x y of complex numbers without the check for infinities.
 double product(double x, double y) { return x * y; }
 std::complex<double> product(const std::complex<double>& x, const std::complex<double>& y) {
   return {x.real() * y.real() - x.imag() * y.imag(), x.real() * y.imag() + x.imag() * y.real()};
 }
 
-/// D^-1 in place: z / (alpha - a), or of the pair with
+/// Applies D^-1 in place: z / (alpha - a), or for a pair with
 ///   D = [[alpha - a, b], [-b, alpha - a]].
 template <class Scalar> void NewtonMatrix<Scalar>::divide(Eigen::Ref<MatrixS> z) const {
   for (Index c = 0; c < z.cols(); ++c) {
@@ -59,7 +59,7 @@ template <class Scalar> void NewtonMatrix<Scalar>::divide(Eigen::Ref<MatrixS> z)
   }
 }
 
-/// D^-1 = [[own, -other], [other, own]] of each block.
+/// Inverts D block by block: D^-1 = [[own, -other], [other, own]].
 template <class Scalar> void NewtonMatrix<Scalar>::invert() {
   inverse_.clear();
   for (const HydroData::Block& block : s_.hydro.blocks) {
@@ -88,7 +88,7 @@ template <class Scalar> void NewtonMatrix<Scalar>::find_transfer(Scalar alpha) {
   known_ = true;
 }
 
-/// L T U_x, body by body.
+/// Adds L T U_x, body by body.
 template <class Scalar> void NewtonMatrix<Scalar>::add_memory() {
   using Block = Eigen::Matrix<Scalar, 6, 6>;
   using Columns = Eigen::Matrix<Scalar, 6, 10>;
@@ -113,7 +113,7 @@ template <class Scalar> void NewtonMatrix<Scalar>::add_memory() {
   });
 }
 
-/// dF/dy + alpha dF/dy' of what stays.
+/// Joins dF/dy + alpha dF/dy' for the reduced unknowns.
 template <class Scalar>
 void NewtonMatrix<Scalar>::join(const system::JacobianParts& parts, const Alphas& alphas) {
   std::vector<Scalar>& values = lu_.values();
@@ -130,7 +130,7 @@ void NewtonMatrix<Scalar>::join(const system::JacobianParts& parts, const Alphas
   std::fill(values.begin(), values.end(), Scalar(0));
   for (std::size_t k = 0; k < lifted_.size(); ++k)
     lifted_[k] = value(static_cast<std::size_t>(points_.lifted[k].entry));
-  std::size_t next = 0; // of the lifted ones
+  std::size_t next = 0; // index among the lifted entries
   for (std::size_t k = 0; k < points_.target.size(); ++k) {
     if (points_.target[k] < 0)
       continue;
@@ -172,7 +172,7 @@ template <class Scalar> void NewtonMatrix<Scalar>::subtract_memory_loads(VectorS
   }
 }
 
-/// Without memory states.
+/// Solves without memory states.
 template <class Scalar> void NewtonMatrix<Scalar>::solve_bodies(Scalar* b) {
   if (points_.empty())
     return lu_.solve(b);
@@ -197,7 +197,7 @@ template <class Scalar> void NewtonMatrix<Scalar>::solve(Scalar* b) {
     return solve_bodies(b);
   Eigen::Map<MatrixS> r_z(b + h.z0, h.n_states, 1);
   z_ = r_z;
-  r_z.setZero(); // their rows of the matrix are those of the identity
+  r_z.setZero(); // rows of the memory states are rows of the identity
   w_ = z_.col(0);
   divide(w_);
   subtract_memory_loads(w_, b);

@@ -1,14 +1,14 @@
 #pragma once
-/// The matrix dF/dy + alpha dF/dy' of Newton's iteration, real or complex, with the radiation
-/// memory eliminated by hand. Its states z feel the bodies through their velocities U only, and are
-/// block diagonal, D = alpha - A_r in blocks of one or two:
+/// Matrix dF/dy + alpha dF/dy' of Newton's iteration, real or complex, without the radiation
+/// memory. Its states z depend on the bodies only through their velocities U, with the block
+/// diagonal matrix D = alpha - A_r (blocks of one or two):
 ///
 ///   [ J     L C ] [dx]   [r_x]        (J + L T U_x) dx = r_x - L C D^-1 r_z,   T = C D^-1 B_r
 ///   [ -B U_x  D ] [dz] = [r_z]        dz = D^-1 (r_z + B_r U_x dx)
 ///
-/// T is as dense as the added mass between the bodies, and depends on alpha alone. What is left
-/// goes to KLU. Without memory states it is KLU alone. Points that move by themselves leave their
-/// velocities to their places first (point_elimination.h).
+/// T is as dense as the added mass between the bodies, and depends on alpha alone. KLU solves the
+/// reduced system. Velocities of points that move by themselves are eliminated first
+/// (point_elimination.h).
 
 #include <complex>
 #include <vector>
@@ -41,16 +41,16 @@ template <class Visit> void for_each_memory_entry(const system::Regime& s, Visit
 
 template <class Scalar> class NewtonMatrix {
 public:
-  /// `pattern`: of Part::condensed, or any where there is no memory. Both must outlive it.
+  /// @param system, pattern  must outlive this object; Part::condensed if there is memory
   NewtonMatrix(const system::Regime& system, const system::Pattern& pattern);
 
-  /// False when the matrix is singular or holds values that are not finite. The parts are read
-  /// until the next call. `careful`: see SparseLu.
+  /// Factorises; returns false if the matrix is singular or has values that are not finite. The
+  /// parts must stay until the next call. `careful`: see SparseLu.
   bool factorise(const system::JacobianParts& parts, Scalar alpha, bool careful = false) {
     return factorise(parts, {alpha, alpha, alpha}, careful);
   }
 
-  /// The same with an alpha of their own for the rates of the positions, and of the memory states.
+  /// Values of alpha for the rates of positions, of memory states, and of all others.
   struct Alphas {
     Scalar of_most, of_positions, of_memory;
   };
@@ -59,10 +59,11 @@ public:
   /// Overwrites b (n,) with the solution.
   void solve(Scalar* b);
 
-  /// b -= L C z for memory states z (n_states,), with the parts of the last `factorise`.
+  /// Subtracts the loads of memory states z (n_states,): b -= L C z, with the parts of the last
+  /// `factorise`.
   void subtract_memory_loads(VecX<Scalar>& z, Scalar* b);
 
-  /// See SparseLu.
+  /// Operations, see SparseLu.
   typename SparseLu<Scalar>::Work work() const { return lu_.work(); }
 
 private:
@@ -83,10 +84,11 @@ private:
   std::vector<Scalar> lifted_; ///< values of PointElimination::lifted
   Scalar rate_{};              ///< alpha of the places of points
   VectorS stays_;              ///< (PointElimination::n,) scratch
-  std::size_t n_of_positions_; ///< entries in the columns of the positions, which come first
-  std::vector<Index> slots_; ///< of the entries that the memory adds to, in the order of its visits
+  std::size_t n_of_positions_; ///< number of entries in the columns of positions, which come first
+  /// Slots of the entries that the memory adds to, in the order of its visits
+  std::vector<Index> slots_;
   Scalar alpha_{};
-  bool known_ = false; ///< T is that of alpha
+  bool known_ = false; ///< true: T belongs to alpha
   MatrixS transfer_;   ///< T (n_moving, n_moving)
   MatrixX input_;      ///< B_r (n_states, n_moving)
   MatrixS driven_;     ///< D^-1 B_r
@@ -99,7 +101,7 @@ private:
   std::vector<Inverse> inverse_; ///< D^-1, block by block
 };
 
-/// `pattern` without the radiation memory: what a NewtonMatrix is made of.
+/// Pattern without the radiation memory, as a NewtonMatrix needs it.
 inline system::Pattern condensed(const system::Regime& s, const system::Pattern& pattern) {
   return s.has_memory() ? system::find_pattern(s, system::Part::condensed) : pattern;
 }

@@ -1,7 +1,7 @@
 #pragma once
-/// Points that move by themselves (nodes of lines) have the rows q' - u = 0. In a Newton matrix
-/// dF/dy + alpha dF/dy' these are alpha dq - du = r, so that the velocities follow from the places,
-/// du = alpha dq - r, and leave the equations with these rows:
+/// Elimination of the velocities of points that move by themselves (nodes of lines). Their rows q'
+/// - u = 0 become alpha dq - du = r in a Newton matrix dF/dy + alpha dF/dy', so that du = alpha dq
+/// - r:
 ///
 ///   [ alpha  -1 ] [dq]   [r]
 ///   [ K       D ] [du] = [b]      (K + alpha D) dq = b + D r
@@ -14,31 +14,32 @@
 
 namespace hydrodae::linalg {
 
-/// Which entries of a pattern go where. Without points all stay.
+/// Maps entries of a pattern to the reduced pattern; without points both are equal.
 class PointElimination {
 public:
   PointElimination(const system::Regime& s, const system::Pattern& p);
 
-  Index n = 0;                   ///< unknowns that stay
-  std::vector<Index> start, row; ///< pattern of what stays
-  std::vector<bool> has_rate;    ///< of its entries: rates or velocities are in them
-  std::vector<Index> target;     ///< of each entry its place in there; -1: it leaves
-  std::vector<Index> unknown;    ///< (n,) in y, of each that stays
-  std::vector<Index> equation;   ///< (n,) in y, its row: of places that of the velocity
+  Index n = 0;                   ///< number of reduced unknowns
+  std::vector<Index> start, row; ///< reduced pattern
+  std::vector<bool> has_rate;    ///< true for reduced entries with rates or velocities
+  std::vector<Index> target;     ///< place of each entry in the reduced pattern; -1: eliminated
+  std::vector<Index> unknown;    ///< (n,) index in y of each reduced unknown
+  /// (n,) index in y of its row; for places of points, the row of the velocity
+  std::vector<Index> equation;
   struct Pair {
     Index place, velocity;
   };
   std::vector<Pair> pairs;
-  /// An entry D in the column of a velocity.
+  /// Entry D in the column of a velocity.
   struct Lifted {
-    Index entry, row, pair; ///< in the pattern; in y; in `pairs`
+    Index entry, row, pair; ///< index in the pattern; in y; in `pairs`
   };
   std::vector<Lifted> lifted;
   bool empty() const { return pairs.empty(); }
 };
 
 inline PointElimination::PointElimination(const system::Regime& s, const system::Pattern& p) {
-  std::vector<Index> pair(static_cast<std::size_t>(p.n), -1); // that a velocity belongs to
+  std::vector<Index> pair(static_cast<std::size_t>(p.n), -1); // pair of each velocity
   for (const system::StateBlock& states : s.states)
     if (!states.unknowns.empty() && states.unknowns.front().length > 0.0)
       system::for_each_point(states, [&](Index place, Index velocity, double) {
@@ -53,7 +54,7 @@ inline PointElimination::PointElimination(const system::Regime& s, const system:
     row = p.row;
     return;
   }
-  std::vector<Index> number(static_cast<std::size_t>(p.n), -1); // of what stays
+  std::vector<Index> number(static_cast<std::size_t>(p.n), -1); // number in the reduced system
   for (Index i = 0; i < p.n; ++i)
     if (pair[static_cast<std::size_t>(i)] < 0) {
       number[static_cast<std::size_t>(i)] = n++;

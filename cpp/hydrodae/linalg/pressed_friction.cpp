@@ -10,8 +10,9 @@ namespace hydrodae::linalg {
 namespace {
 
 constexpr int most_balance_steps = 60;
-constexpr double load_balanced = 1e-13; ///< of the largest load
-constexpr double load_rounded = 1e-10;  ///< likewise, where it gets no smaller
+constexpr double load_balanced = 1e-13; ///< accuracy of the balance, as part of the largest load
+/// Accuracy accepted if the error gets no smaller, as part of the largest load
+constexpr double load_rounded = 1e-10;
 
 } // namespace
 
@@ -69,7 +70,7 @@ void SaddlePoint::Pressed::evaluate(const system::Regime& s, double t, VectorX& 
     const system::ElementList& own = list(s, k);
     const element::Shape& shape = own.laws->shape;
     system::ElementScratch<double>& scratch = ws.state.elements[laws[k].list];
-    if (laws[k].law == 0) { // once a list
+    if (laws[k].law == 0) { // once for each list
       own.laws->evaluate(t, scratch.in.data(), s.held(own), scratch.out.data());
       own.laws->jacobian(t, scratch.in.data(), s.held(own), ws.element_jacobian.data());
     }
@@ -86,7 +87,7 @@ bool SaddlePoint::Pressed::balance(const system::Regime& s, double t) {
   reaction.setZero();
   evaluate(s, t, at_rest);
   load = at_rest;
-  double before = INFINITY, part = 1.0; // of the step that is taken
+  double before = INFINITY, part = 1.0; // part of the step that is taken
   for (int i = 0; i < most_balance_steps; ++i) {
     reaction = start;
     for (Index m = 0; m < n; ++m)
@@ -99,7 +100,7 @@ bool SaddlePoint::Pressed::balance(const system::Regime& s, double t) {
     if (size <= load_balanced * whole ||
         (i > 3 && size >= 0.5 * before && size <= load_rounded * whole))
       return true;
-    if (size > before && part > 1e-3) { // not so far
+    if (size > before && part > 1e-3) { // step is too long
       part *= 0.5;
       load -= part * step;
       continue;
@@ -121,11 +122,11 @@ std::string SaddlePoint::Pressed::jam(const system::Regime& s) const {
   double worst = 1.0;
   for (std::size_t k = 0; k < laws.size(); ++k) {
     const system::PortData& own = port(s, k);
-    element::Bearing bare = *own.bearing; // N of what a load of one adds
+    element::Bearing bare = *own.bearing; // bearing load N of a unit friction load
     bare.preload = bare.small = 0.0;
     const auto i = static_cast<Index>(k);
     const double pressing = bare.load(sensitivity.col(i).data() + 6 * i);
-    std::array<Dual, 6> r; // along the reaction itself: N is its slope there, or nearly
+    std::array<Dual, 6> r; // slope of N along the reaction, close to N itself
     for (std::size_t c = 0; c < 6; ++c)
       r[c] = Dual(reaction[6 * i + static_cast<Index>(c)], reaction[6 * i + static_cast<Index>(c)]);
     const double grows = own.bearing->load(r.data()).b;
@@ -146,8 +147,8 @@ std::string SaddlePoint::Pressed::jam(const system::Regime& s) const {
   return out;
 }
 
-/// Adds to x_ the loads of friction that the reactions press, and takes the rates of its states.
-/// False where there are no such loads.
+/// Adds the friction loads of bearings to x_, and sets the rates of their states. Returns false if
+/// there are no such loads.
 bool SaddlePoint::press(double t, const VectorX& y, VectorX& yp) {
   Pressed& p = *pressed_;
   p.rhs = rhs_;
@@ -175,7 +176,7 @@ bool SaddlePoint::press(double t, const VectorX& y, VectorX& yp) {
   x_ = p.x;
   for (std::size_t k = 0; k < p.laws.size(); ++k) {
     const auto i = static_cast<Index>(k);
-    const double more = p.load[i] - p.at_rest[i]; // the residual has had the loads at rest
+    const double more = p.load[i] - p.at_rest[i]; // the residual already contains the loads at rest
     p.add_along(s_, k, more, rhs_);
     x_ += more * p.columns.col(i);
     const element::Shape& shape = p.list(s_, k).laws->shape;

@@ -11,14 +11,15 @@ namespace hydrodae::linalg {
 
 namespace {
 
-constexpr double regularisation = 1e-8; ///< e
+constexpr double regularisation = 1e-8; ///< regularisation e
 /// D is at least this part of diag(G M^-1 G^T), so that eD stays a hundred times above rounding.
 constexpr double least_metric = 1e-6;
-constexpr int usual_refinements = 4; ///< in singular poses the residual may stay
+/// Refinements before pivots are checked; the residual may stay in singular poses
+constexpr int usual_refinements = 4;
 constexpr int refinements = 20;
-constexpr double stalled = 0.5;    ///< what a refinement leaves of the residual: more is the end
-constexpr double much_left = 1e-6; ///< likewise: more than regularisation leaves
-/// Squares of lengths, relative to the largest: below, a direction has no inertia, or no row.
+constexpr double stalled = 0.5;    ///< ratio of residuals above which refinement stops
+constexpr double much_left = 1e-6; ///< residual above that of regularisation
+/// Squared lengths relative to the largest, below which a direction has no inertia, or no row.
 constexpr double singular_mass = 1e-14;
 
 template <class Vector> double largest(const Vector& v) {
@@ -35,7 +36,7 @@ SaddleMatrix::SaddleMatrix(const system::Regime& system, const system::Pattern& 
 }
 
 void SaddleMatrix::find_slots(const system::Pattern& p) {
-  auto place = [&](Index i) -> Index { // of a row or column of y in the small matrix
+  auto place = [&](Index i) -> Index { // row or column of y in the small matrix
     if (i >= s_.u0 && i < s_.z0)
       return i - s_.u0;
     if (i >= s_.lambda0 && i < s_.mu0)
@@ -95,8 +96,8 @@ void SaddleMatrix::find_mechanisms() {
     }
 }
 
-/// Coordinates of a body stay together. Tables whose added mass is not symmetric have no Cholesky
-/// factors that a refinement could use.
+/// Keeps coordinates of a body together. Tables with unsymmetric added mass have no Cholesky
+/// factors that refinement could use.
 void SaddleMatrix::find_blocks() {
   const auto crooked = [](const auto& A) {
     return A.size() > 0 && (A - A.transpose()).cwiseAbs().maxCoeff() > much_left * largest(A);
@@ -115,8 +116,8 @@ void SaddleMatrix::find_blocks() {
   chosen_ = blocks_->work() <= dense::lanes * blocks_->least_work();
 }
 
-/// The heaviest mass of each mechanism and its largest moment of inertia, that of the mass at the
-/// longest lever of a row included.
+/// Finds the largest mass of each mechanism, and its largest moment of inertia, including that mass
+/// at the longest lever of a row.
 void SaddleMatrix::find_heaviest() {
   for (Heaviest& h : heaviest_)
     h = {};
@@ -134,7 +135,7 @@ void SaddleMatrix::find_heaviest() {
   }
 }
 
-/// What row i of the matrix, a constraint, holds of G.
+/// Sums over the entries of G in row i of the matrix, a constraint.
 SaddleMatrix::RowSums SaddleMatrix::sums_of(Index i) const {
   RowSums out;
   for (Index k = start_[i]; k < start_[i + 1]; ++k)
@@ -148,8 +149,8 @@ SaddleMatrix::RowSums SaddleMatrix::sums_of(Index i) const {
   return out;
 }
 
-/// K with e > 0 from K. D_i is what the row would yield if the heaviest body of its mechanism were
-/// at its end: the smallest eigenvalues of G M^-1 G^T are of that size, however light the others
+/// Factorises K with e > 0. D_i is the diagonal entry of the row with the heaviest body of its
+/// mechanism: the smallest eigenvalues of G M^-1 G^T have that size, however light other bodies
 /// are.
 bool SaddleMatrix::factorise() {
   find_heaviest();
@@ -164,7 +165,7 @@ bool SaddleMatrix::factorise() {
     metric_[i - s_.n_u] = d > 0.0 ? d : 1.0;
     damping_[i - s_.n_u] = regularisation * metric_[i - s_.n_u];
   }
-  if (!chosen_) { // dense blocks do so many multiply-adds at once
+  if (!chosen_) { // cost of dense blocks per multiply-add is lower
     chosen_ = true;
     if (!factorise_sparse())
       return false;
@@ -188,14 +189,14 @@ bool SaddleMatrix::factorise_sparse() {
   return old_pivots_ || lu_->factorise();
 }
 
-/// out -= K x with e = 0
+/// Subtracts a product: out -= K x with e = 0.
 void SaddleMatrix::subtract_product(const VectorX& x, VectorX& out) const {
   for (Index c = 0; c < n_; ++c)
     for (Index k = start_[c]; k < start_[c + 1]; ++k)
       out[row_[k]] -= plain_[k] * x[c];
 }
 
-/// The largest force by which masses resist accelerations x.
+/// Largest inertia force at the accelerations x.
 double SaddleMatrix::inertia(const VectorX& x) const {
   double most = 0.0;
   for (Index k = 0; k < s_.n_u; ++k)
@@ -210,11 +211,11 @@ void SaddleMatrix::solve(const VectorX& b, VectorX& x, double accuracy) {
   for (int i = 0; i < refinements; ++i) {
     r_ = b;
     subtract_product(x, r_);
-    // Forces and gaps are of different units, and converge each by their own size.
+    // Forces and gaps have different units, and converge each relative to its own size.
     const double motion = largest(x.head(s_.n_u)), forces = largest(r_.head(s_.n_u)),
                  gaps = largest(r_.tail(s_.n_lambda));
     double load = largest(b.head(s_.n_u));
-    if (load == 0.0) // of a projection: inertia, which the rows balance
+    if (load == 0.0) // load of a projection: inertia, which the rows balance
       load = inertia(x);
     if (forces <= accuracy * load && gaps <= accuracy * motion)
       return;
@@ -248,7 +249,7 @@ void SaddleMatrix::fill(const system::JacobianParts& parts) {
     plain_[entry.slot] = -parts.by_y[entry.from];
 }
 
-/// Of each body the directions (n_u,) along which its block of M is singular.
+/// Directions (n_u,) along which the block of M of a body is singular.
 std::vector<VectorX> SaddleMatrix::massless_directions() const {
   std::vector<VectorX> out;
   for (const system::BodyData& b : s_.bodies) {
@@ -281,7 +282,7 @@ VectorX SaddleMatrix::undetermined() const {
   MatrixX Z(s_.n_u, std::ssize(massless));
   for (Index k = 0; k < Z.cols(); ++k)
     Z.col(k) = massless[static_cast<std::size_t>(k)];
-  // The rows along them, relative to what each row has along all of u.
+  // Rows along them, relative to each row along all of u.
   MatrixX along = MatrixX::Zero(s_.n_lambda, Z.cols());
   for (Index i = s_.n_u; i < n_; ++i) {
     double square = 0.0;
@@ -300,9 +301,9 @@ VectorX SaddleMatrix::undetermined() const {
 }
 
 VectorX SaddleMatrix::independence(const std::vector<int>& part, int parts) {
-  constexpr int iterations = 20; // inverse iteration, x <- (G M^-1 G^T)^-1 D x, part by part
+  constexpr int iterations = 20; // inverse iteration x <- (G M^-1 G^T)^-1 D x, part by part
   VectorX x(s_.n_lambda);
-  for (Index i = 0; i < x.size(); ++i) // no symmetry that an eigenvector could hide behind
+  for (Index i = 0; i < x.size(); ++i) // start without symmetry, which could hide an eigenvector
     x[i] = 1.0 + 0.5 * std::sin(static_cast<double>(1 + i * i));
   const auto products = [&](const VectorX& a, const VectorX& b) {
     VectorX sums = VectorX::Zero(parts);
@@ -334,7 +335,7 @@ double SaddleMatrix::mismatch(const VectorX& b, const VectorX& x) {
   const double load = std::max(largest(b.head(s_.n_u)), inertia(x));
   const double forces = largest(r_.head(s_.n_u)), rates = largest(r_.tail(s_.n_lambda));
   double motion = std::max(largest(x.head(s_.n_u)), largest(b.tail(s_.n_lambda)));
-  for (Index k = 0; k < s_.n_u; ++k) // where nothing moves: the accelerations without the rows
+  for (Index k = 0; k < s_.n_u; ++k) // nothing moves: the accelerations without the rows
     if (const double mass = plain_[mass_[k]]; mass > 0.0)
       motion = std::max(motion, std::abs(b[k]) / mass);
   return std::max(forces > 0.0 ? forces / load : 0.0, rates > 0.0 ? rates / motion : 0.0);

@@ -1,13 +1,13 @@
 #pragma once
-/// The saddle-point matrix of accelerations and reactions, its factors and what follows from them:
+/// Saddle-point matrix of accelerations and reactions, its factors and solutions:
 ///
 ///   K = [ M   G^T ]
 ///       [ G   -eD ]
 ///
-/// D is diag(G M^-1 G^T) with the masses of the heaviest body of each mechanism, e tiny. It only
-/// keeps the matrix regular where rows depend on each other (singular poses); refinement against e
-/// = 0 (the proximal iteration of Bayo and Ledesma, Nonlinear Dynamics 9 (1996) 113) takes its
-/// effect out again and tends to the minimum-norm reactions.
+/// D is diag(G M^-1 G^T) with the masses of the heaviest body of each mechanism, e tiny. It keeps
+/// the matrix regular if rows depend on each other (singular poses). Refinement against e = 0
+/// (proximal iteration: Bayo and Ledesma, Nonlinear Dynamics 9 (1996) 113) removes its effect and
+/// tends to the minimum-norm reactions.
 
 #include <memory>
 
@@ -19,34 +19,35 @@ namespace hydrodae::linalg {
 
 class SaddleMatrix {
 public:
-  static constexpr double converged = 1e-13; ///< residual, relative to the right-hand side
+  /// Residual of a solution, relative to the right-hand side
+  static constexpr double converged = 1e-13;
 
-  /// Both must outlive it.
-  /// @param pattern of Part::accelerations
+  /// @param system, pattern  must outlive this object
+  /// @param pattern  pattern of Part::accelerations
   SaddleMatrix(const system::Regime& system, const system::Pattern& pattern);
 
-  /// K with e = 0.
+  /// Fills K with e = 0.
   void fill(const system::JacobianParts& parts);
 
-  /// False when it is singular.
+  /// Factorises; returns false if the matrix is singular.
   bool factorise();
 
-  /// x = K^-1 b, the residual taken with e = 0, until what is left of it is below `accuracy`. Where
-  /// much of it is left the pivots may have gone bad, and are looked at. NaN: it is singular.
+  /// Solves x = K^-1 b, with refinement against e = 0 until the residual is below `accuracy`. A
+  /// large residual triggers a check of the pivots. NaN: the matrix is singular.
   void solve(const VectorX& b, VectorX& x, double accuracy = converged);
 
-  /// What a solution x leaves of b, relative to the loads [-].
+  /// Residual of b at a solution x, relative to the loads [-].
   double mismatch(const VectorX& b, const VectorX& x);
 
-  /// A direction of u (n_u,) that has no inertia and that no row holds. Empty: no body has one.
+  /// Direction of u (n_u,) without inertia that no row holds; empty: none.
   VectorX undetermined() const;
 
-  /// Smallest eigenvalue of G M^-1 G^T against its diagonal [-], of each part of the rows by
-  /// itself: see SaddlePoint.
+  /// Smallest eigenvalue of G M^-1 G^T relative to its diagonal [-], for each part of the rows: see
+  /// SaddlePoint.
   VectorX independence(const std::vector<int>& part, int parts);
 
 private:
-  struct Heaviest { ///< of one mechanism
+  struct Heaviest { ///< largest inertia of one mechanism
     double mass = 0.0, inertia = 0.0;
   };
   struct RowSums { ///< sums of G_ik^2 over translations and over rotations, and of G_ik^2 / M_kk
@@ -54,8 +55,8 @@ private:
     std::size_t mechanism = 0;
   };
   struct Entry {
-    Index from = 0; ///< in the Jacobian
-    Index slot = 0; ///< in the matrix
+    Index from = 0; ///< index in the Jacobian
+    Index slot = 0; ///< index in the matrix
   };
   void find_slots(const system::Pattern& pattern);
   void find_mechanisms();
@@ -71,23 +72,24 @@ private:
   const system::Regime& s_;
   Index n_ = 0; ///< n_u + n_lambda
   std::vector<Index> start_, row_;
-  std::vector<Entry> of_mass_;           ///< from dF/dy'
-  std::vector<Entry> of_rows_;           ///< G, from dF/dy
-  std::vector<Entry> of_loads_;          ///< G^T, which dF/dy has with the other sign
+  std::vector<Entry> of_mass_;           ///< entries of M, from dF/dy'
+  std::vector<Entry> of_rows_;           ///< entries of G, from dF/dy
+  std::vector<Entry> of_loads_;          ///< entries of G^T, with the opposite sign in dF/dy
   std::vector<Index> diagonal_;          ///< slots of eD
   std::vector<Index> mass_;              ///< slots of the diagonal of M
   std::vector<double> plain_;            ///< values with e = 0
   VectorX metric_, damping_;             ///< (n_lambda,) D, eD
-  std::vector<std::size_t> mechanism_;   ///< (n_u,)
-  std::vector<bool> turns_;              ///< (n_u,) angular velocities
-  std::vector<Heaviest> heaviest_;       ///< by mechanism
-  std::vector<RowSums> sums_;            ///< (n_lambda,)
+  std::vector<std::size_t> mechanism_;   ///< (n_u,) mechanism of each velocity
+  std::vector<bool> turns_;              ///< (n_u,) true for angular velocities
+  std::vector<Heaviest> heaviest_;       ///< largest inertia by mechanism
+  std::vector<RowSums> sums_;            ///< (n_lambda,) sums of each row
   std::unique_ptr<SparseLu<double>> lu_; ///< made when first needed
   std::unique_ptr<BlockFactor> blocks_;  ///< null: `lu_` is cheaper
-  bool in_blocks_ = false;               ///< the last factors
-  bool chosen_ = false;                  ///< between the two
-  bool old_pivots_ = false;              ///< those of a matrix before, which nobody has looked at
-  VectorX r_;                            ///< (n,) scratch
+  bool in_blocks_ = false;               ///< true: the last factors are those of `blocks_`
+  bool chosen_ = false;                  ///< true: the choice between the two is made
+  /// True: the pivots are those of an earlier matrix, unchecked
+  bool old_pivots_ = false;
+  VectorX r_; ///< (n,) scratch
 };
 
 } // namespace hydrodae::linalg

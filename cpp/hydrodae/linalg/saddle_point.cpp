@@ -11,8 +11,9 @@ namespace hydrodae::linalg {
 
 namespace {
 
-constexpr double rough = 1e-6;  ///< residual of a step of a projection, which the next step mends
-constexpr double longest = 1e4; ///< way that closes a gap, relative to the gap
+/// Residual of a step of a projection, which the next step corrects
+constexpr double rough = 1e-6;
+constexpr double longest = 1e4; ///< longest displacement to close a gap, relative to the gap
 
 } // namespace
 
@@ -28,7 +29,7 @@ SaddlePoint::SaddlePoint(Equations& equations)
 
 SaddlePoint::~SaddlePoint() = default;
 
-/// The matrix in the pose of y.
+/// Fills the matrix at the pose of y.
 void SaddlePoint::fill(double t, const VectorX& y) {
   e_.mass_and_rows(t, y, yp0_, pattern_, parts_);
   matrix_.fill(parts_);
@@ -55,7 +56,7 @@ bool SaddlePoint::accelerations(double t, VectorX& y, VectorX& yp) {
   rhs_.head(s_.n_u) = -residual_.segment(s_.u0, s_.n_u);
   rhs_.tail(s_.n_lambda) = -parts_.row_rates;
   for (const system::CouplerData& c : s_.couplers)
-    if (s_.holds(c)) // the explicit time derivative of the velocity row: -f'' or -f'
+    if (s_.holds(c)) // explicit time derivative of the velocity row: -f'' or -f'
       rhs_[s_.lambda(c) - s_.lambda0 + s_.n_u] += s_.drive(c, t)[c.velocity_level ? 1 : 2];
   if (!matrix_.factorise())
     return false;
@@ -84,7 +85,7 @@ SaddlePoint::Strike SaddlePoint::strike(double t, VectorX& y, const VectorX& rat
   return out;
 }
 
-/// rhs_ = [0; -g] from the residual at hand; the largest gap in units of its scale.
+/// Sets rhs_ = [0; -g] from the present residual; returns the largest gap in units of its scale.
 double SaddlePoint::gaps() {
   rhs_.setZero();
   double gap = 0.0;
@@ -127,7 +128,7 @@ bool SaddlePoint::project(double t, VectorX& y, double accuracy) {
     matrix_.solve(rhs_, x_, rough);
     system::retract(s_, x_.head(s_.n_u), y);
   }
-  for (int i = 0; i < 2; ++i) { // the matrix is of a pose a little off: twice
+  for (int i = 0; i < 2; ++i) { // two passes: the matrix belongs to a slightly different pose
     if (!e_.constraint_residual(t, y, yp0_, residual_))
       return false;
     rhs_.setZero();

@@ -4,7 +4,7 @@
 ///   [ M   G^T ] [  u'     ]   [ f                ]
 ///   [ G   -eD ] [ -lambda ] = [ -gamma (+ drive) ]
 ///
-/// Friction that the reactions press is found after that (pressed_friction.cpp).
+/// Friction with a bearing is solved afterwards (pressed_friction.cpp).
 
 #include <memory>
 #include <string>
@@ -17,49 +17,49 @@ namespace hydrodae::linalg {
 
 class SaddlePoint {
 public:
-  // Of `project`, gaps and rates in units of their scale:
+  // Limits of `project`, for gaps and rates in units of their scale:
   static constexpr int projections = 8;
-  static constexpr double closed = 1e-13;  ///< gaps that need no further step
-  static constexpr double stalled = 1e-10; ///< below it, gaps that no longer halve are rounding
-  static constexpr double open = 1e-9;     ///< gaps that mean failure
-  static constexpr double moving = 1e-8;   ///< rates likewise: the loop is locked
+  static constexpr double closed = 1e-13;  ///< largest gap that needs no further step
+  static constexpr double stalled = 1e-10; ///< gap below which slow convergence is rounding
+  static constexpr double open = 1e-9;     ///< gap above which the projection has failed
+  /// Rate above which the projection has failed: the loop is locked
+  static constexpr double moving = 1e-8;
 
   explicit SaddlePoint(Equations& equations);
   ~SaddlePoint();
 
-  /// Of y only q, u, z are read. Fills y' of them and the reactions lambda of y (mu = sigma = 0).
-  /// False when no finite accelerations exist.
+  /// Computes y' of q, u, z and the reactions lambda in y (mu = sigma = 0) from q, u, z. Returns
+  /// false if no finite accelerations exist.
   bool accelerations(double t, VectorX& y, VectorX& yp);
 
-  /// The matrix alone, for `project`. Of y only q and u are read; its multipliers are set to 0.
-  /// False when it is singular.
+  /// Computes only the matrix, for `project`, from q and u in y; sets its multipliers to 0. Returns
+  /// false if it is singular.
   bool linearise(double t, VectorX& y);
 
-  /// Friction pressed by its joint that leaves no accelerations or more than one at the last call
-  /// of `accelerations` (Painleve's paradox), in words; empty if absent.
+  /// Message on friction with a bearing that gave no accelerations, or more than one solution, in
+  /// the last `accelerations` (Painleve's paradox); empty: none.
   const std::string& jam() const { return jam_; }
 
-  /// What the last `accelerations` left of the equations, relative to the loads [-].
+  /// Residual of the last `accelerations`, relative to the loads [-].
   double mismatch() { return matrix_.mismatch(rhs_, x_); }
 
-  /// A direction of u (n_u,) that has no inertia and that no row of the last matrix holds. Empty:
-  /// no body has one.
+  /// Direction of u (n_u,) without inertia that no row of the last matrix holds; empty: none.
   VectorX undetermined() const { return matrix_.undetermined(); }
 
-  /// Smallest eigenvalue of G M^-1 G^T against its diagonal [-], with the matrix of the last
-  /// `accelerations`: 1 for rows that do not feel each other, 0 in a singular pose. Of each part of
-  /// the rows by itself: rows of different parts have no body in common.
-  /// @param part of each row (n_lambda,), below `parts`
+  /// Smallest eigenvalue of G M^-1 G^T relative to its diagonal [-], with the matrix of the last
+  /// `accelerations`: 1 for independent rows, 0 in a singular pose. Each part of the rows has its
+  /// own; rows of different parts have no common body.
+  /// @param part  part of each row (n_lambda,), below `parts`
   VectorX independence(const std::vector<int>& part, int parts) {
     return matrix_.independence(part, parts);
   }
 
-  /// What impulses do, those of friction that its joint presses among them.
+  /// Result of an impact, with the impulses of friction with bearings.
   struct Strike {
     VectorX impulses;     ///< Lambda (n_lambda,) [N s or N m s]
-    VectorX before;       ///< rates that the rows had, over those of their drives (n_lambda,)
-    double rubbed = 0.0;  ///< work of friction [J], over the means of rates before and after
-    bool balanced = true; ///< false: no friction fits the impulses that press it
+    VectorX before;       ///< (n_lambda,) rates of the rows before, relative to their drives
+    double rubbed = 0.0;  ///< work of friction [J], with the mean of the rates before and after
+    bool balanced = true; ///< false: no friction fits its bearing impulses
   };
 
   static constexpr std::string_view no_friction_fits =
@@ -69,14 +69,14 @@ public:
   /// [m/s or rad/s], with the matrix of the last `accelerations`.
   Strike strike(double t, VectorX& y, const VectorX& rates);
 
-  /// Moves q, then u, by the smallest amount in the metric of M onto the constraints, with the
-  /// matrix of the last `accelerations` or `linearise`. False when it does not converge.
-  /// @param accuracy of the gaps, in units of their scale
+  /// Moves q, then u, onto the constraints by the smallest amount in the metric of M, with the
+  /// matrix of the last `accelerations` or `linearise`. Returns false without convergence.
+  /// @param accuracy  largest remaining gap, in units of its scale
   bool project(double t, VectorX& y, double accuracy = closed);
 
-  /// Moves q of the last `accelerations`, which misses the constraints by a little, onto them to
-  /// first order and in the same metric; u and reactions stay. In a singular pose, where a small
-  /// gap would take a long way, q stays too.
+  /// Moves q of the last `accelerations` onto the constraints, to first order in the metric of M; u
+  /// and reactions stay. In a singular pose, where a small gap needs a large displacement, q stays,
+  /// too.
   void close(double t, VectorX& y);
 
 private:
@@ -87,12 +87,12 @@ private:
 
   Equations& e_;
   const system::Regime& s_;
-  system::Pattern pattern_;     ///< of what accelerations need
-  system::JacobianParts parts_; ///< on it
+  system::Pattern pattern_;     ///< pattern for accelerations
+  system::JacobianParts parts_; ///< Jacobian in that pattern
   SaddleMatrix matrix_;
-  std::vector<Index> algebraic_; ///< unknowns of elements that have no rate
+  std::vector<Index> algebraic_; ///< unknowns of elements without a rate
   VectorX residual_, rhs_, x_, yp0_;
-  std::unique_ptr<Pressed> pressed_; ///< null: no friction is pressed by its joint
+  std::unique_ptr<Pressed> pressed_; ///< null: no friction with a bearing
   std::string jam_;
 };
 

@@ -1,11 +1,10 @@
 #pragma once
 namespace hydrodae::linalg {
 
-/// Operations for each entry of the Jacobian, as measured: of a residual, and of the Jacobian
-/// itself.
+/// Measured operations of a residual and of a Jacobian, for each entry of the Jacobian.
 inline constexpr double of_residual = 8.0, of_jacobian = 40.0;
 
-/// What an integrator did so far.
+/// Counts of an integrator so far.
 struct Statistics {
   long steps = 0;
   long residual_calls = 0;
@@ -13,8 +12,8 @@ struct Statistics {
   long newton_iterations = 0;
   long error_test_failures = 0;
   long convergence_failures = 0;
-  double factor_work = 0.0; ///< operations of the factors of Newton's matrices
-  double last_step = 0.0;   ///< [s]
+  double factor_work = 0.0; ///< operations for the factors of Newton's matrices
+  double last_step = 0.0;   ///< length of the last step [s]
   int last_order = 0;
 
   /// Adds the counts of another part of the same run; the last step stays.

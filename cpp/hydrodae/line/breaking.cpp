@@ -7,7 +7,7 @@ namespace hydrodae::line {
 
 namespace {
 
-/// That of a law which rubs; null: it does not.
+/// Rubbing interface of a law; null: the law does not rub.
 const element::Rubbing* rubbing(const std::shared_ptr<const element::Elements>& whole) {
   const auto* laws = dynamic_cast<const element::Rubbing*>(whole.get());
   return laws && laws->may_rub() ? laws : nullptr;
@@ -99,7 +99,7 @@ void Breaking::observe(double t, const double* in, const double* held, const dou
     const bool parted = has_parted(held);
     whole_[k]->observe(t, in, held, out, values);
     const double ratio = parted ? 0.0 : bears_[k](in, values).ratio;
-    if (parted) // its ends are loose
+    if (parted) // the ends of a parted law are loose
       std::fill_n(values, n_values_, 0.0);
     values += n_values_;
     *values++ = ratio;
@@ -124,7 +124,7 @@ std::shared_ptr<const element::Elements> Breaking::started(const double* in) con
   return any ? std::make_shared<const Breaking>(out, bears_, breaks_) : nullptr;
 }
 
-/// They are whole at rest.
+/// Laws at rest, which are whole.
 std::shared_ptr<const element::Elements> Breaking::statics() const {
   std::vector<std::shared_ptr<const element::Elements>> out;
   bool any = false;

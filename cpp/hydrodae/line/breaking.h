@@ -1,6 +1,6 @@
 #pragma once
-/// Ropes and quasi-static lines that know what they bear: laws of another list, whose loads end
-/// where they part. The elastic energy that they hold then is lost with their ends.
+/// Ropes and quasi-static lines with breaking loads: they wrap the laws of another list, whose
+/// loads end when they part. Their elastic energy is then lost.
 
 #include <functional>
 #include <memory>
@@ -14,12 +14,12 @@ namespace hydrodae::line {
 
 class Breaking final : public element::Elements, public element::Parting, public element::Rubbing {
 public:
-  /// What a whole law bears, by what it sees and the values of its own channels.
+  /// Overload of a whole law, from its inputs and the values of its channels.
   using Bears = std::function<element::Overload(const double* in, const double* values)>;
 
-  /// @param whole   lists of one law each, of one shape
-  /// @param bears   of each
-  /// @param breaks  else what is exceeded is only reported
+  /// @param whole   lists of one law each, with equal shape
+  /// @param bears   overload function of each law
+  /// @param breaks  true: laws part; false: an overload is only reported
   Breaking(std::vector<std::shared_ptr<const element::Elements>> whole, std::vector<Bears> bears,
            bool breaks);
 
@@ -53,7 +53,7 @@ private:
   std::vector<std::shared_ptr<const element::Elements>> whole_;
   std::vector<Bears> bears_;
   bool breaks_;
-  std::size_t n_values_ = 0; ///< of the channels of a whole law
+  std::size_t n_values_ = 0; ///< number of channel values of a whole law
 };
 
 } // namespace hydrodae::line

@@ -1,4 +1,4 @@
-/// From the keys of a line to its numbers.
+/// Line model from the keys of a line.
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +12,10 @@ namespace hydrodae::line {
 
 namespace {
 
-constexpr double lies_deep = 0.1;  ///< of D, without a stiffness of the bed
+constexpr double lies_deep = 0.1;  ///< depth of a line on a bed without stiffness, as part of D
 constexpr double thin_line = 0.01; ///< depth of a line without a diameter [m]
 
-/// One part of a line.
+/// Part of a line.
 struct Part {
   double l, mass, diameter, EA, damping, EI, strength;
   const Line& of;
@@ -34,7 +34,7 @@ Part part_of(const Line& of, std::size_t i, double length) {
       of, i};
 }
 
-/// Half a segment goes with a node.
+/// Adds half a segment to a node.
 void add_half(const Part& p, const element::Surroundings& around, double bed, LineNode& node) {
   const auto get = [&](const std::vector<double>& values) {
     return Line::of_part(values, p.index);
@@ -67,7 +67,7 @@ void add_half(const Part& p, const element::Surroundings& around, double bed, Li
   node.axis_height = std::max(node.axis_height, 0.5 * contact);
 }
 
-/// Clumps and buoys, as spheres of their volume.
+/// Adds clumps and buoys, as spheres of their volume.
 void attach(const Line& of, const element::Surroundings& around, double stretched, LineModel& m) {
   for (std::size_t k = 0; k < of.attachment_at.size(); ++k) {
     const double at = of.attachment_at[k] + stretched;
@@ -124,7 +124,7 @@ LineModel line_model(const Line& of, const element::Surroundings& of_case, doubl
          ++node)
       m.nodes[node].bending = p.EI / p.l;
   }
-  // Where two parts meet, the softer in series: EI / l is that of half of either.
+  // Bending stiffness between two parts: two halves in series.
   for (std::size_t k = 1; k + 1 < m.nodes.size(); ++k) {
     const auto EI_of = [&](std::size_t node) { return m.nodes[node].bending; };
     const double before = EI_of(k), after = EI_of(k + 1);
@@ -138,7 +138,7 @@ LineModel line_model(const Line& of, const element::Surroundings& of_case, doubl
 
 namespace {
 
-/// The length of the first part by which the tension at B is the one asked for.
+/// Length of the first part that gives the requested tension at B.
 double tightened(const Line& of, const element::Surroundings& around) {
   Eigen::Matrix<double, 6, 1> x;
   x << of.point_a, of.point_b;

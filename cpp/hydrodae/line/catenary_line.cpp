@@ -11,11 +11,11 @@ namespace hydrodae::line {
 
 namespace {
 
-/// The hold of a line, and the vertical plane in which it hangs.
+/// Solution of a line, and the vertical plane in which it hangs.
 struct Found {
   CatenaryHold hold;
   Eigen::Vector2d e; ///< horizontal, from A to B
-  double X, Z;       ///< of B from A [m]
+  double X, Z;       ///< position of B relative to A [m]
 };
 
 /// @param x  places of A and B (6,) [m]
@@ -31,8 +31,9 @@ void put_loads(const Found& at, double* load) {
       -at.hold.horizontal * at.e, -at.hold.vertical;
 }
 
-/// The line and the surface keep their places where both ends move sideways. What the height of A
-/// does to B, B does to A: the forces have a potential.
+/// Derivatives of the end forces by the end places. The forces have a potential, so that the
+/// derivatives by the heights of A and B are symmetric; the seabed and the surface do not move with
+/// the ends.
 Matrix6 slope(const Found& at) {
   const Eigen::Matrix2d& K = at.hold.stiffness;
   const Eigen::Matrix2d across =
@@ -49,7 +50,7 @@ Matrix6 slope(const Found& at) {
   return out;
 }
 
-/// Weight of sea water: the size of a load at the surface follows from its buoyancy [N/m3].
+/// Weight of sea water [N/m3]: with the buoyancy it gives the size of a load at the surface.
 constexpr double sea_water = 1025.0 * 9.81;
 
 Catenary described(const CatenaryLine& of) {
@@ -70,7 +71,7 @@ Catenary described(const CatenaryLine& of) {
   return out;
 }
 
-/// The line between its ends in the reference pose.
+/// Line between its ends in the reference pose.
 CatenaryHold in_place(const CatenaryLine& of, const Catenary& line) {
   const Vector3 d = of.point_b - of.point_a;
   return hold(line, std::hypot(d[0], d[1]), d[2], of.point_b[2] - of.surface);
@@ -81,13 +82,13 @@ double tension(const CatenaryLine& of, Catenary& line, double first) {
   return in_place(of, line).tension();
 }
 
-/// Lengths of the first part between which a tension is looked for [m].
+/// Range of lengths of the first part in the search for a tension [m].
 std::pair<double, double> lengths_to_try(const CatenaryLine& of) {
   return {1e-6 * of.length[0], of.length[0] + (of.point_b - of.point_a).norm()};
 }
 
-/// The first part gets the length by which the tension is the one that was asked for: it falls as
-/// the line gets longer.
+/// Finds the length of the first part that gives the requested tension, which falls as the line
+/// gets longer.
 void tighten(const CatenaryLine& of, Catenary& line) {
   auto [low, high] = lengths_to_try(of);
   for (int k = 0; k < 60; ++k) {
@@ -97,7 +98,7 @@ void tighten(const CatenaryLine& of, Catenary& line) {
   line.parts[0].length = 0.5 * (low + high);
 }
 
-/// What is wrong with a line on the seabed, if anything.
+/// Fault in a line on the seabed, or nothing.
 std::optional<Fault> fault_on_seabed(const CatenaryLine& of) {
   if (of.body_a != "ground")
     return Fault{"seabed", "the seabed is at the height of end A, so that must be on the ground; "

@@ -13,10 +13,10 @@
 
 namespace hydrodae::line {
 
-/// Quasi-static elastic mooring line between an anchor (end A) and a fairlead (end B), of parts
-/// with clump weights or buoys between them. It lies on a flat seabed at the height of the anchor
-/// or is free of it, at each instant as if at rest (math/catenary.h). No inertia, no drag. What is
-/// above z = 0 has its dry weight; unknown, it is that in water, or zero of what floats.
+/// Quasi-static elastic mooring line between an anchor (end A) and a fairlead (end B): parts with
+/// clump weights or buoys between them. At each instant it is at rest, on a flat seabed at the
+/// height of the anchor or free of it (math/catenary.h), without inertia and drag. Parts above z =
+/// 0 have their dry weight; if that is unknown, the weight in water, or zero for floating parts.
 ///
 ///   force on B = -(H e + V z),   e: horizontal, from A to B
 struct CatenaryLine {
@@ -35,14 +35,14 @@ struct CatenaryLine {
   double friction = 0.0;
   std::vector<double> breaking_load;
   bool breaks = false;
-  double surface = 0.0; ///< its height [m]; no key
+  double surface = 0.0; ///< height of the surface [m]; not a key
 
-  /// What the port joins, by the names of the bodies.
+  /// Ends of the port, by the names of the bodies.
   std::array<std::pair<std::string, Vector3>, 2> ends() const {
     return {{{body_a, point_a}, {body_b, point_b}}};
   }
 
-  /// The law that the system evaluates.
+  /// Law with derived numbers.
   struct Law {
     Catenary line;
     double surface = 0.0;
@@ -54,7 +54,8 @@ struct CatenaryLine {
       j.setZero();
       j.template topLeftCorner<6, 6>() = gradient(in.x);
     }
-    /// d (forces on A and B) / d (places of A and B), but for what the seabed takes at A.
+    /// Derivatives of the forces on A and B by the places of A and B, without the load that the
+    /// seabed takes at A.
     Matrix6 gradient(const double* x) const;
     double energy(const element::In<double>& in) const;
     void observe(const element::In<double>& in, const element::Out<const double>& out,
@@ -63,7 +64,7 @@ struct CatenaryLine {
 
   Law law() const;
 
-  /// Lists are of lines that all have breaking loads, or all break, or none.
+  /// Index of the list: in one list all lines have breaking loads, or all break, or none does.
   std::size_t shape() const { return breaks ? 2 : breaking_load.empty() ? 0 : 1; }
   static std::shared_ptr<const element::Elements> list(const std::vector<CatenaryLine>& lines);
 
@@ -73,7 +74,7 @@ struct CatenaryLine {
             {"length_on_seabed", "m", "Unstretched length that lies."}};
   }
 
-  /// What is wrong with it, if anything.
+  /// Fault in the parameters, or nothing.
   std::optional<Fault> fault() const;
 
   template <class C = CatenaryLine> static Fields<C> fields() {

@@ -28,7 +28,7 @@ std::size_t Line::shape() const {
 
 namespace {
 
-/// Lists that hold one number, or one of each part, or may be left out.
+/// Checks lists with one number, or one for each part, or none.
 std::optional<Fault> fault_of_parts(const Line& of) {
   const std::vector<std::pair<std::string, const std::vector<double>*>> all = {
       {"segments", &of.segments},

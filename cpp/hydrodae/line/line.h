@@ -13,9 +13,9 @@
 
 namespace hydrodae::line {
 
-/// Dynamic mooring line: lumped masses at the ends of elastic segments, with weight, buoyancy, the
-/// drag and inertia of the water, bending, and a flat seabed (line_model.h has the
-/// equations). Of one or more parts, with clumps and buoys between segments.
+/// Dynamic mooring line: lumped masses at the ends of elastic segments, with weight, buoyancy, drag
+/// and inertia of the water, bending, and a flat seabed (equations in line_model.h). It has one or
+/// more parts, with clumps and buoys between segments.
 struct Line {
   static constexpr std::string_view type = "line";
   static constexpr std::string_view doc =
@@ -39,7 +39,7 @@ struct Line {
   double seabed_damping = 0.0, seabed_friction = 0.0;
   bool waves = true;
 
-  /// What the port joins, by the names of the bodies.
+  /// Ends of the port, by the names of the bodies.
   std::vector<std::pair<std::string, Vector3>> ends() const {
     std::vector<std::pair<std::string, Vector3>> out = {{body_a, point_a}};
     if (!free_end)
@@ -48,17 +48,17 @@ struct Line {
   }
 
   int n_segments() const;
-  /// Of part `i`, or the value that all have: an entry of a list of one or of as many as parts.
+  /// Value of part `part`; a list has one entry for all parts or one for each.
   static double of_part(const std::vector<double>& values, std::size_t part, double otherwise = 0);
 
-  /// Lists are of lines with as many segments and the same kinds of entries, that all break or
-  /// none.
+  /// Index of the list: lines in one list have the same number of segments and kinds of entries,
+  /// and all break or none does.
   std::size_t shape() const;
 
   static std::shared_ptr<const element::Elements> list(const std::vector<Line>& lines,
                                                        const element::Surroundings& around);
 
-  /// What is wrong with it, if anything: by itself, and in its surroundings.
+  /// Fault in the parameters, alone or with the surroundings; or nothing.
   std::optional<Fault> fault() const;
   std::optional<Fault> fault(const element::Surroundings& around) const;
 

@@ -19,8 +19,8 @@ template <class Visit> void for_each_line_block(const LineModel& m, Visit&& visi
   }
 }
 
-/// F += f_a[m] q_a ..., with a = x_i - x_(i-1) and b = x_(i+1) - x_i of the energy c (1 - e_a .
-/// e_b):
+/// Adds the bending force f_a[m] q_a ..., with a = x_i - x_(i-1) and b = x_(i+1) - x_i, of the
+/// energy c (1 - e_a . e_b):
 ///   H_aa = c (s P_a + e_a p^T + p e_a^T) / a^2,   p = P_a e_b,   H_ab = -c P_a P_b / (a b)
 void add_bending(double c, int i, const SegmentPull<double>& a, const SegmentPull<double>& b,
                  LineBlocks& K) {
@@ -89,7 +89,7 @@ void add_bed(const LineModel& m, const LineNode& node, const Vector3& x, const V
       node.friction * k * s.value / r * (Eigen::Matrix2d::Identity() - h * h.transpose());
 }
 
-/// Derivatives of the force of the water: by the node's place and velocity, and by its tangent.
+/// Derivatives of the water force by the node's place, velocity and tangent.
 struct WaterGradient {
   Matrix3 by_x = Matrix3::Zero(), by_v = Matrix3::Zero(), by_t = Matrix3::Zero();
 };
@@ -104,7 +104,7 @@ void add_morison(const water::MorisonSegment& law, double lift, double displaced
   water::MorisonGradient d = water::morison_gradient(law, t, u, f.acceleration, a);
   Vector3 dry =
       water::morison_force<double>(law, t, u, f.acceleration, a) + lift * Vector3::UnitZ();
-  if (displaced > 0.0) { // rho V (t . a_f) t
+  if (displaced > 0.0) { // pressure along the line: rho V (t . a_f) t
     const double along = t.dot(f.acceleration);
     dry += displaced * along * t;
     d.by_fluid += displaced * t * t.transpose();
@@ -117,8 +117,8 @@ void add_morison(const water::MorisonSegment& law, double lift, double displaced
   out.by_t += wet * d.by_axis + by_axis_z * dry * Vector3::UnitZ().transpose();
 }
 
-/// Adds what the water does to node i that has the acceleration a.
-/// @returns the water there
+/// Adds the water force on node i, which has the acceleration a.
+/// @returns the water at the node
 NodeWater<double> add_water(const LineView<double>& at, const sea::WaveField& sea, double t, int i,
                             const Vector3& a, LineBlocks& K) {
   const auto k = static_cast<std::size_t>(i);

@@ -16,7 +16,7 @@ template <class S> LineArrays<S>& line_arrays() {
   return arrays;
 }
 
-/// What the line takes for good, and what it stores.
+/// Dissipated powers of a line, and its stored energy.
 struct LinePowers {
   double water = 0.0, damping = 0.0, seabed = 0.0;
 };
@@ -77,7 +77,7 @@ double line_energy(const LineView<double>& at) {
   return out;
 }
 
-/// The segment that bears most, of those that are whole.
+/// Largest overload among the whole segments.
 element::Overload heaviest(const LineView<double>& at) {
   element::Overload out;
   for (int k = 0; k < at.m.n(); ++k) {
@@ -89,8 +89,8 @@ element::Overload heaviest(const LineView<double>& at) {
   return out;
 }
 
-/// Lines that are at rest at each instant. Each keeps where it was last, so that the next search is
-/// short: one thread at a time.
+/// Lines at rest at each instant. Each stores its last shape, so that the next search is short; not
+/// thread-safe.
 class LineStatics final : public element::Elements {
 public:
   LineStatics(const LineList& of, std::vector<LineModel> models, sea::WaveField still,
@@ -234,10 +234,10 @@ bool LineList::lost_at_rest(std::size_t law) const {
   });
 }
 
-/// Tolerances by what an error means to the tension: EA dx / l of a place, EA v / c of a velocity,
-/// c = sqrt(EA l / m), against the largest tension at rest.
+/// Tolerances from the effect of an error on the tension: EA dx / l for a place, EA v / c for a
+/// velocity with c = sqrt(EA l / m), relative to the largest tension at rest.
 std::shared_ptr<const element::Elements> LineList::started(const double* in) const {
-  constexpr double least = 1e-7, longest = 0.1; // strain; part of a segment
+  constexpr double least = 1e-7, longest = 0.1; // least strain; longest error, as part of a segment
   auto out = std::make_shared<LineList>(*this);
   element::Unknown* u = out->unknowns.data();
   for (std::size_t k = 0; k < size(); ++k, in += shape.n_in()) {

@@ -1,5 +1,5 @@
 #pragma once
-/// All lines of a scene that have as many segments, in the water that they feel.
+/// Lines of a scene with the same number of segments, and the water around them.
 
 #include <string>
 #include <vector>
@@ -11,11 +11,11 @@
 
 namespace hydrodae::line {
 
-/// The numbers of a line.
-/// @param first unstretched length of its first part [m]
+/// Model of a line.
+/// @param first  unstretched length of its first part [m]
 LineModel line_model(const Line& line, const element::Surroundings& around, double first);
 
-/// Allocates nothing after a first call; for several threads at once.
+/// Allocates nothing after a first call; thread-safe.
 class LineList final : public element::Elements, public element::Parting {
 public:
   LineList(const std::vector<Line>& lines, const element::Surroundings& around);
@@ -41,21 +41,21 @@ public:
 private:
   template <class S> void loads(double t, const S* in, const double* held, S* out) const;
   const sea::WaveField& sea_of(std::size_t law) const { return waves_[law] ? water_ : still_; }
-  /// @param parted  segment that has parted, from 1 on; 0: it is whole
+  /// @param parted  segment that has parted, from 1 on; 0: whole
   template <class S> LineView<S> seen(std::size_t law, const S* in, double parted) const {
     return {models_[law], in, in + shape.width, in + 2 * shape.width, static_cast<int>(parted) - 1};
   }
-  /// @param held  of all laws
+  /// @param held  signals of all laws
   template <class S> LineView<S> view(std::size_t law, const S* in, const double* held) const {
     return seen(law, in, breaks_ ? held[law * element::Parting::n_signals] : 0.0);
   }
 
   bool breaks_ = false;
-  sea::WaveField water_, still_; ///< with the waves and without
+  sea::WaveField water_, still_; ///< water with the waves and without
   std::vector<LineModel> models_;
-  std::vector<LineTable> tables_;  ///< of the models
-  std::vector<bool> waves_;        ///< of each line
-  std::vector<Vector3> free_ends_; ///< towards which free ends lie
+  std::vector<LineTable> tables_;  ///< tables of the models
+  std::vector<bool> waves_;        ///< true if waves act on the line, for each line
+  std::vector<Vector3> free_ends_; ///< points towards which free ends lie
 };
 
 } // namespace hydrodae::line

@@ -1,18 +1,16 @@
 #pragma once
-/// The equations of a dynamic line. Nodes 0 .. N at the ends of segments of unstretched length l_i;
-/// node 0 is end A, node N end B or free; half of each segment goes with either node.
+/// Equations of a dynamic line. Nodes 0 .. N are the ends of segments of unstretched length l_i.
+/// Node 0 is end A, node N is end B or free; each node has half of the segments beside it.
 ///
 ///   m a = T_i+1/2 e_i+1/2 - T_i-1/2 e_i-1/2 - m g z + w rho g V z + F_water + F_bend + F_bed
-///   T       = EA s(strain) + C strain' s'(strain)       s: max(0, .), smooth; none where slack,
-///                                                        or with `damps_slack` C strain'
+///                                                         or with `damps_slack` C strain'
 ///                                                        throughout
 ///   F_water = w (Morison's force), along and across t_i = (x_i+1 - x_i-1) / |.|    (morison.h)
 ///   F_bend  = -grad sum_i EI / l_i (1 - e_i-1/2 . e_i+1/2)
 ///   F_bed   = (k s(d) + c s'(d) p(-v_z)) z - mu k s(d) v_h / sqrt(v_h^2 + v_s^2)
-///
-/// w: wet part of the node; d: depth of the node in the bed [m]; p: what is above zero, smooth, so
-/// that the bed never pulls; or with `bed_damps_up` p(v) = v, and then it may. The end nodes have
-/// no inertia of their own: it is that of half a segment beside that of the body.
+/// w: wet part of the node; d: depth of the node in the bed [m]; p: positive part, smooth, so that
+/// the bed never pulls; with `bed_damps_up` p(v) = v, and the bed may pull. End nodes add the
+/// inertia of half a segment to that of their body.
 
 #include <algorithm>
 #include <limits>
@@ -24,10 +22,10 @@
 namespace hydrodae::line {
 
 struct LineSegment {
-  double length = 0.0;    ///< unstretched [m]
+  double length = 0.0;    ///< unstretched length [m]
   double stiffness = 0.0; ///< EA [N]
   double damping = 0.0;   ///< C [N s]
-  double slack = 0.0;     ///< half the width in which s bends, a strain [-]
+  double slack = 0.0;     ///< half the width of strain in which s bends [-]
   double strength = std::numeric_limits<double>::infinity(); ///< breaking load [N]
 };
 
@@ -35,38 +33,38 @@ struct LineNode {
   double at = 0.0;                    ///< unstretched length from A [m]
   double mass = 0.0;                  ///< [kg]
   double bending = 0.0;               ///< EI / l [N m]
-  water::MorisonSegment line;         ///< the water on the line
-  water::MorisonSegment body;         ///< and on what is attached
-  double lift = 0.0, body_lift = 0.0; ///< rho g V of both [N]
-  double displaced = 0.0;             ///< rho V: waves press along the line too, as at rest [kg]
+  water::MorisonSegment line;         ///< water load on the line
+  water::MorisonSegment body;         ///< water load on the attachment
+  double lift = 0.0, body_lift = 0.0; ///< rho g V of line and attachment [N]
+  double displaced = 0.0;             ///< rho V [kg], for the wave pressure along the line
   double bed_stiffness = 0.0;         ///< k [N/m]
   double bed_damping = 0.0;           ///< c [N s/m]
-  double bed_width = 0.0;             ///< half of that in which s(d) bends [m]
-  double friction = 0.0;              ///< mu
-  double axis_height = 0.0;           ///< over the bed where it just touches [m]
+  double bed_width = 0.0;             ///< half the width of depth in which s(d) bends [m]
+  double friction = 0.0;              ///< friction coefficient mu
+  double axis_height = 0.0;           ///< height of the axis above the bed at first contact [m]
 };
 
 struct LineModel {
   std::vector<LineSegment> segments; ///< (N,)
   std::vector<LineNode> nodes;       ///< (N + 1,)
   double gravity = 9.81;
-  double bed = -std::numeric_limits<double>::infinity(); ///< its height [m]
-  bool wet = false;                                      ///< is there water?
+  double bed = -std::numeric_limits<double>::infinity(); ///< height of the bed [m]
+  bool wet = false;                                      ///< true: there is water
   bool bends = false;
-  bool damps_slack = false;  ///< does C act in slack segments, too?
-  bool bed_damps_up = false; ///< does c act on the way up, too?
+  bool damps_slack = false;  ///< true: C acts in slack segments, too
+  bool bed_damps_up = false; ///< true: c acts on the way up, too
   bool free_end = false;
 
   int n() const { return static_cast<int>(segments.size()); }
   int n_points() const { return free_end ? 1 : 2; }
-  int n_unknown() const { return free_end ? n() : n() - 1; } ///< nodes
+  int n_unknown() const { return free_end ? n() : n() - 1; } ///< number of free nodes
   bool is_end(int i) const { return i == 0 || (i == n() && !free_end); }
 };
 
 inline constexpr double slip_speed =
     0.01; ///< v_s, and in which the damping of the bed begins [m/s]
 
-/// max(0, x), twice differentiable: it bends where |x| < w, a polynomial of degree four.
+/// Smooth max(0, x), twice differentiable: a polynomial of degree four for |x| < w.
 template <class S> struct Plus {
   S value, slope, curvature;
 };
@@ -79,7 +77,7 @@ template <class S> Plus<S> plus(const S& x, double w) {
   return {S(w) * (S(0.5) * y + S(0.375) * y2 - S(0.0625) * y2 * y2 + S(0.1875)),
           S(0.5) + S(0.75) * y - S(0.25) * y2 * y, S(0.75 / w) * (S(1) - y2)};
 }
-/// Its integral from -w on.
+/// Integral of Plus from -w on.
 inline double plus_integral(double x, double w) {
   if (x <= -w)
     return 0.0;
@@ -89,27 +87,27 @@ inline double plus_integral(double x, double w) {
   return w * w * (0.25 * y * y + 0.125 * y * y * y - 0.0125 * std::pow(y, 5) + 0.1875 * y + 0.05);
 }
 
-/// Where a law keeps the nodes: x, v of the ends as in `points`, states [place | velocity] of the
-/// others node by node.
+/// View of the nodes in the inputs of a law: x, v of the ends as in `points`, states [place |
+/// velocity] of the others node by node.
 template <class S> struct LineView {
   const LineModel& m;
   const S *x, *v, *z;
-  int parted = -1; ///< segment that has parted
+  int parted = -1; ///< segment that has parted; -1: none
   Vec3<S> place(int i) const { return Eigen::Map<const Vec3<S>>(at(i, x, 0)); }
   Vec3<S> velocity(int i) const { return Eigen::Map<const Vec3<S>>(at(i, v, 3)); }
 
-  /// s(strain) of segment k of this length.
+  /// Function s(strain) of segment k at this length.
   Plus<S> stretch(int k, const S& length) const {
     if (k == parted)
       return {S(0), S(0), S(0)};
     const LineSegment& seg = m.segments[static_cast<std::size_t>(k)];
     return plus<S>((length - S(seg.length)) / S(seg.length), seg.slack);
   }
-  /// By what the damping of segment k acts, of the same s.
+  /// Factor of the damping of segment k, from its s.
   Plus<S> damped(int k, const Plus<S>& s) const {
     return m.damps_slack && k != parted ? Plus<S>{s.value, S(1), S(0)} : s;
   }
-  /// EI / l at node k, between two segments.
+  /// Bending stiffness EI / l at node k, between two segments.
   double bending(int k) const {
     return k == parted || k == parted + 1 ? 0.0 : m.nodes[static_cast<std::size_t>(k)].bending;
   }
@@ -125,8 +123,8 @@ template <class S> S length_of(const Vec3<S>& d) {
   return sqrt(d.cwiseProduct(d).sum());
 }
 
-/// Nodes by which the direction of the line at node i goes: its neighbours, but not over a segment
-/// that has parted, unless it is all there is.
+/// Nodes that give the direction of the line at node i: its neighbours, except over a parted
+/// segment, unless there is no other.
 template <class S> int node_before(const LineView<S>& at, int i) {
   return i == 0 || (at.parted == i - 1 && i < at.m.n()) ? i : i - 1;
 }
@@ -134,7 +132,7 @@ template <class S> int node_behind(const LineView<S>& at, int i) {
   return i == at.m.n() || (at.parted == i && i > 0) ? i : i + 1;
 }
 
-/// Along the line at node i: from its neighbour before to that behind.
+/// Tangent of the line at node i, from the neighbour before to the one behind.
 template <class S> Vec3<S> tangent(const LineView<S>& at, int i) {
   const Vec3<S> d = at.place(node_behind(at, i)) - at.place(node_before(at, i));
   return d / length_of<S>(d);
@@ -157,8 +155,8 @@ template <class S> SegmentPull<S> segment_pull(const LineView<S>& at, int k) {
   return out;
 }
 
-/// The water at a node, and how much of the node and of its attachment is in it. Beneath the bed
-/// the water moves as at the bed.
+/// Water at a node, and the wet parts of the node and its attachment. Below the bed the water moves
+/// as at the bed.
 template <class S> struct NodeWater {
   Vec3<S> t;
   sea::FluidPoint<S> fluid;
@@ -183,10 +181,10 @@ sea::FluidPoint<S> node_fluid(const LineView<S>& at, const sea::WaveField& sea, 
     gradient->velocity.col(2).setZero(), gradient->acceleration.col(2).setZero();
   return out;
 }
-/// Wet part of the line at node i, so far above the surface.
+/// Wet part of the line at node i, at height `above` over the surface.
 template <class S> S wet_line(const LineView<S>& at, int i, const S& above) {
   const water::MorisonSegment& line = at.m.nodes[static_cast<std::size_t>(i)].line;
-  const double reach = std::max(line.half_length, line.radius); // no part is farther off
+  const double reach = std::max(line.half_length, line.radius); // no part is farther away
   return line.radius == 0.0 || above > S(reach) ? S(0)
          : above < S(-reach) ? S(1)
                              : water::wet_part<S>(line, above, tangent<S>(at, i)[2]);
@@ -204,7 +202,7 @@ NodeWater<S> node_water(const LineView<S>& at, const sea::WaveField& sea, double
   return out;
 }
 
-/// Force of the water on a node that has the acceleration a.
+/// Force of the water on a node with the acceleration a.
 template <class S>
 Vec3<S> water_force(const LineNode& node, const NodeWater<S>& w, const Vec3<S>& v,
                     const Vec3<S>& a) {
@@ -219,8 +217,8 @@ Vec3<S> water_force(const LineNode& node, const NodeWater<S>& w, const Vec3<S>& 
   return f;
 }
 
-/// p(v) of the damping of the bed, v downwards: v beyond v_s, none on the way up or at rest, so
-/// that it only takes energy and never pulls. Twice differentiable. `both`: v itself.
+/// Function p(v) of the bed damping, v downwards: v beyond v_s, zero on the way up or at rest, so
+/// that it dissipates energy and never pulls. Twice differentiable. `both`: p(v) = v.
 template <bool both, class S> Plus<S> down_rate(const S& v) {
   if constexpr (both)
     return {v, S(1), S(0)};
@@ -247,7 +245,7 @@ Vec3<S> bed_force(const LineModel& m, const LineNode& node, const Vec3<S>& x, co
   return f;
 }
 
-/// Mass of a node across and along the line, that of the water included.
+/// Mass of a node across and along the line, with the added mass.
 template <class S> struct NodeMass {
   S across, along;
 };
@@ -256,17 +254,18 @@ template <class S> NodeMass<S> node_mass(const LineNode& node, const S& line, co
   return {m + line * S(node.line.mass_body), m + line * S(node.line.mass_axial)};
 }
 
-/// (row, column) of the entries of d (load, z_dot) / d (x, v, z) that can differ from zero.
+/// Pairs (row, column) of the nonzeros of d (load, z_dot) / d (x, v, z).
 std::vector<std::array<int, 2>> line_sparsity(const LineModel& model);
 
-/// Scratch of the derivatives: 3x3 blocks of each node by places (5) and velocities (3) nearby.
+/// Scratch of the derivatives: 3x3 blocks of each node by the places (5) and velocities (3) nearby.
 struct LineBlocks {
   std::vector<std::array<Matrix3, 5>> by_place;
   std::vector<std::array<Matrix3, 3>> by_velocity;
 };
 
-/// The values of `line_sparsity`, by hand; `rates`: z_dot at the same place.
-/// @returns the end of `values`
+/// Writes the values of `line_sparsity` from hand-written derivatives. `rates`: z_dot at the same
+/// state.
+/// @returns the end of the written values
 double* line_jacobian(const LineView<double>& at, const sea::WaveField& sea, double t,
                       const double* rates, LineBlocks& blocks, double* values);
 

@@ -1,4 +1,4 @@
-/// Where the search for rest of a line begins.
+/// Initial shape in the search for the rest of a line.
 
 #include <algorithm>
 #include <cmath>
@@ -14,13 +14,13 @@ double net_weight(const LineModel& m, const LineNode& node) {
   return node.mass * m.gravity - (m.wet ? node.lift + node.body_lift : 0.0);
 }
 
-/// Where a node lies on the bed.
+/// Height of a node that lies on the bed.
 double resting_height(const LineModel& m, int node) {
   return m.bed + m.nodes[static_cast<std::size_t>(node)].axis_height;
 }
 
-/// The catenary of the same weights between these ends, the lower one first: segments as parts,
-/// half of each node's weight on either side.
+/// Catenary of the same weights between the ends, the lower one first: segments are parts, and half
+/// of each node's weight lies on either side.
 Catenary like(const LineModel& m, bool turned, bool bed) {
   Catenary out;
   const auto n = static_cast<std::size_t>(m.n());
@@ -36,7 +36,7 @@ Catenary like(const LineModel& m, bool turned, bool bed) {
   return out;
 }
 
-/// Straight from the first end to the second, with a sag that makes it about as long as it is.
+/// Straight shape from the first end to the second, with a sag that gives about the right length.
 void straight(const LineModel& m, const Vector3& a, const Vector3& b, VectorX& places) {
   const double all = m.nodes.back().at, chord = (b - a).norm();
   double weight = 0.0;
@@ -52,7 +52,7 @@ void straight(const LineModel& m, const Vector3& a, const Vector3& b, VectorX& p
   }
 }
 
-/// By the catenary; false where no catenary fits.
+/// Shape of the catenary; false if no catenary fits.
 bool hang(const LineModel& m, const Vector3& a, const Vector3& b, VectorX& places) {
   const bool turned = b[2] < a[2];
   const Vector3 &low = turned ? b : a, &high = turned ? a : b;
@@ -80,7 +80,7 @@ bool hang(const LineModel& m, const Vector3& a, const Vector3& b, VectorX& place
   return places.allFinite();
 }
 
-/// Down, or up, from end A, and along the seabed.
+/// Shape down, or up, from end A, and along the seabed.
 void drop(const LineModel& m, const Vector3& a, const Vector3& towards, VectorX& places) {
   Vector3 e(towards[0] - a[0], towards[1] - a[1], 0.0);
   e = e.norm() > 0.0 ? Vector3(e.normalized()) : Vector3(1.0, 0.0, 0.0);
@@ -95,8 +95,8 @@ void drop(const LineModel& m, const Vector3& a, const Vector3& towards, VectorX&
   }
 }
 
-/// Nodes that lie on one another, on the seabed beside a slack line, share the way to the next one
-/// that does not; without such a node, they go to and fro across it.
+/// Spreads nodes at one place, on the seabed beside a slack line, evenly on the way to the next
+/// node elsewhere. Without such a node they alternate across the line.
 void spread(const LineModel& m, const Vector3& a, const Vector3& b, VectorX& places) {
   constexpr double together = 1e-3, aside = 0.1; // of a segment
   const int n = m.n_unknown(), last = m.free_end ? n : n + 1;

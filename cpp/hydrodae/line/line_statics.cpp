@@ -11,7 +11,7 @@ namespace hydrodae::line {
 
 namespace {
 
-/// Accelerations of the nodes at rest, and what they follow from.
+/// Accelerations of the nodes at rest, with their derivatives.
 class Rest {
 public:
   Rest(const LineModel& m, const sea::WaveField& sea, const double* x)
@@ -32,21 +32,22 @@ public:
       out.segment<3>(3 * i) = rates_.segment<3>(6 * i + 3);
     return out;
   }
-  /// On the nodes that move, at the places of the last `accelerations`.
+  /// Forces on the nodes that move, at the places of the last `accelerations`.
   VectorX forces() {
     VectorX out(3 * m_.n_unknown());
     for (int i = 0; i < m_.n_unknown(); ++i)
       out.segment<3>(3 * i) = arrays_.force(i + 1);
     return out;
   }
-  /// a = (-d accelerations / d places + sigma)^-1 a. @returns whether it could be solved
+  /// Solves (-d accelerations / d places + sigma) x = a in place. @returns whether that is possible
   bool solve(double sigma, Eigen::Ref<MatrixX> a) {
     if (!factorise(sigma))
       return false;
     matrix_.solve(a);
     return true;
   }
-  /// d load / d ends, as the nodes follow. @returns whether they do
+  /// Derivatives of the load by the ends, with the nodes in equilibrium. @returns whether they
+  /// exist
   bool slope(double sigma, MatrixX& out) {
     if (!factorise(sigma))
       return false;
@@ -75,14 +76,14 @@ public:
 
 private:
   /// Visits d (load, acceleration) / d (end, node) at the places of the last `accelerations`, by
-  /// row and column: ends first.
+  /// row and column, ends first.
   template <class Visit> void for_each_derivative(Visit&& visit) const {
     const int w = 3 * m_.n_points();
     for (std::size_t k = 0; k < sparsity_.size(); ++k) {
       const auto [row, column] = sparsity_[k];
       const int r = row - w, c = column - 2 * w;
       if ((r >= 0 && r % 6 < 3) || (c >= 0 && c % 6 >= 3) || (c < 0 && column >= w))
-        continue; // rows of places, columns of velocities
+        continue; // skips rows of places and columns of velocities
       visit(r < 0 ? row : w + 3 * (r / 6) + r % 6 - 3, c < 0 ? column : w + 3 * (c / 6) + c % 6,
             values_[static_cast<Index>(k)]);
     }
@@ -112,16 +113,16 @@ private:
   VectorX rates_;
   std::vector<std::array<int, 2>> sparsity_;
   VectorX values_;
-  BandMatrix matrix_; ///< a force reaches one node on either side, two where the line bends
+  BandMatrix matrix_; ///< a force reaches one node on either side, two in a line that bends
   LineBlocks blocks_;
 };
 
-/// Largest force that is not in balance, over the mass.
+/// Largest unbalanced force over mass.
 double largest_of(const VectorX& a) { return a.allFinite() ? a.cwiseAbs().maxCoeff() : HUGE_VAL; }
 
-/// Plain Newton with limited steps. Where EA is large the accelerations grow before they shrink, so
-/// they say nothing of a step.
-/// @returns whether it came to rest
+/// Newton's method with limited steps. For large EA the accelerations grow before they shrink, so
+/// they do not control the steps.
+/// @returns whether the line came to rest
 bool find_directly(Rest& rest, VectorX& places, double longest, double enough, double floor) {
   constexpr int most_steps = 40;
   double before = HUGE_VAL;
@@ -143,9 +144,9 @@ bool find_directly(Rest& rest, VectorX& places, double longest, double enough, d
   return false;
 }
 
-/// Goes down in energy, which is convex where nothing bends: elastic segments that only pull,
-/// weight, the bed. Steps of (K + sigma M) d = f, as long as f . d stays positive along them.
-/// @returns whether it came to rest
+/// Minimises the energy, which is convex without bending: elastic segments that only pull, weight,
+/// the bed. Steps (K + sigma M) d = f continue while f . d is positive along them.
+/// @returns whether the line came to rest
 bool descend(Rest& rest, VectorX& places, double longest, double start, double enough,
              double floor) {
   constexpr int most_steps = 400, most_cuts = 30;
@@ -161,7 +162,7 @@ bool descend(Rest& rest, VectorX& places, double longest, double start, double e
     VectorX d = a;
     rest.solve(sigma, d);
     double slope = f.dot(d);
-    if (!(slope > 0.0) || !d.allFinite()) { // no way down: a shorter step along the accelerations
+    if (!(slope > 0.0) || !d.allFinite()) { // no descent: a shorter step along the accelerations
       sigma = std::max(10.0 * sigma, start);
       d = a / sigma;
       slope = f.dot(d);
@@ -170,7 +171,8 @@ bool descend(Rest& rest, VectorX& places, double longest, double start, double e
       d *= longest / most;
       slope *= longest / most;
     }
-    double part = 1.0, low = 0.0, high = 0.0; // where f . d is positive, and where no longer
+    // bounds: f . d is positive at `low`, and not at `high`
+    double part = 1.0, low = 0.0, high = 0.0;
     for (int cut = 0; cut < most_cuts; ++cut) {
       rest.place(places + part * d);
       const double there = rest.accelerations().allFinite() ? rest.forces().dot(d) : -HUGE_VAL;
@@ -189,7 +191,7 @@ bool descend(Rest& rest, VectorX& places, double longest, double start, double e
   return false;
 }
 
-/// Sizes below which a line is at rest.
+/// Scales of a line at rest.
 struct RestScales {
   double g = 1.0, shortest = HUGE_VAL, whole = 0.0, weight = 0.0, stiffest = 0.0, floor = 0.0;
 
@@ -205,14 +207,14 @@ struct RestScales {
       least_mass = std::min(least_mass, node.mass);
       weight += std::abs(node.mass * g - node.lift - node.body_lift);
     }
-    // What rounding of the places leaves.
+    // Rounding error of the places.
     const double reach = whole + places.cwiseAbs().maxCoeff();
     floor = std::max(1e-11 * g, 20.0 * 2.2e-16 * reach * per_length / least_mass);
   }
 };
 
-/// Places near rest: of ever stiffer lines, the first so soft that it stretches by a part of its
-/// length.
+/// Finds places near rest with a sequence of stiffer lines, beginning with one so soft that it
+/// stretches by a part of its length.
 void stiffen(const LineModel& m, const sea::WaveField& sea, const double* x, const RestScales& size,
              VectorX& places) {
   constexpr double strain = 0.1;
@@ -231,7 +233,7 @@ void stiffen(const LineModel& m, const sea::WaveField& sea, const double* x, con
   }
 }
 
-/// Where the nodes are if they follow the ends from where they were at rest.
+/// Places of the nodes that follow the ends from their last rest.
 VectorX follow(const LineModel& m, const double* x, const LineAtRest& before) {
   VectorX places(3 * m.n_unknown());
   for (int i = 1; i <= m.n_unknown(); ++i) {
@@ -287,7 +289,7 @@ LineAtRest line_at_rest(const LineModel& m, const sea::WaveField& sea, const dou
                  rest.load,
                  {},
                  rest.largest_tension()};
-  if (with_slope) { // a slack piece has no stiffness of its own across
+  if (with_slope) { // a slack segment has no stiffness of its own across
     bool found = rest.slope(0.0, out.slope);
     for (double sigma = 1e-9; !found && sigma < 1.0; sigma *= 10.0)
       found = rest.slope(sigma, out.slope);

@@ -1,28 +1,28 @@
 #pragma once
-/// A line at rest.
+/// Line at rest.
 
 #include "hydrodae/line/line_model.h"
 
 namespace hydrodae::line {
 
-/// A line with the ends at x (3 n_points,), in water without waves.
+/// Line with the ends at x (3 n_points,), in water without waves.
 struct LineAtRest {
   VectorX ends;       ///< x
-  VectorX z;          ///< (6 n_unknown,) states, at rest
-  VectorX load;       ///< (3 n_points,) on the ends [N]
+  VectorX z;          ///< (6 n_unknown,) states at rest
+  VectorX load;       ///< (3 n_points,) load on the ends [N]
   MatrixX slope;      ///< (3 n_points, 3 n_points) d load / dx
-  double tension = 0; ///< the largest [N]
+  double tension = 0; ///< largest tension [N]
 };
 
-/// About where a line hangs between its ends (line_shape.cpp): as a catenary, where there is one,
-/// or with a free end straight down and along the seabed towards `free_end`; (3 n_unknown,).
+/// Approximate shape of a hanging line (line_shape.cpp): a catenary if one fits; with a free end
+/// straight down, then along the seabed towards `free_end`; (3 n_unknown,).
 VectorX line_shape(const LineModel& model, const double* x, const Vector3& free_end);
 
-/// Newton's method on the places of the nodes from the shape of a catenary, with steps that shrink
+/// Line at rest by Newton's method on the places of the nodes from a catenary shape. Steps shrink
 /// where it does not converge (pseudo-transient continuation: Kelley and Keyes, SIAM J. Numer.
 /// Anal. 35 (1998) 508). Friction of the seabed does not act at rest. Throws ModelError about
 /// `name`.
-/// @param before  the line at rest with its ends elsewhere, from which the search begins; or null
+/// @param before  line at rest with its ends elsewhere, as the start of the search; or null
 LineAtRest line_at_rest(const LineModel& model, const sea::WaveField& sea, const double* x,
                         const Vector3& free_end, const std::string& name, bool with_slope,
                         const LineAtRest* before = nullptr);

@@ -27,8 +27,8 @@ enum {
   mass_body,
   mass_axial,
   lift,
-  fluid,       ///< mass that the acceleration of the water acts on
-  fluid_axial, ///< what that along the line has more
+  fluid,       ///< mass under the acceleration of the water
+  fluid_axial, ///< additional mass along the line
   bed_height,
   bed_width,
   bed_stiffness,
@@ -38,8 +38,8 @@ enum {
 };
 } // namespace node
 
-/// Columns of LineArrays, the first of three where these are vectors. What belongs to segment k
-/// stands in row k + 1, between zeros.
+/// Columns of LineArrays; for vectors, the first of three. Values of segment k are in row k + 1,
+/// between zeros.
 namespace at_ {
 enum {
   force = 0,
@@ -65,7 +65,7 @@ template <class S> HYDRODAE_PART Triples<S> triples(LineArrays<S>& arrays, int c
   return {arrays.column(column), arrays.column(column + 1), arrays.column(column + 2)};
 }
 
-/// Places and velocities, node by node in the states, into arrays.
+/// Copies places and velocities, node by node in the states, into arrays.
 template <class S>
 HYDRODAE_PART void spread(const LineView<S>& at, const Triples<S>& x, const Triples<S>& v) {
   const int n = at.m.n(), last = at.m.n_unknown();
@@ -82,7 +82,7 @@ HYDRODAE_PART void spread(const LineView<S>& at, const Triples<S>& x, const Trip
   }
 }
 
-/// Spans and pulls of the segments, rows 1 .. N.
+/// Computes spans and pulls of the segments, rows 1 .. N.
 template <bool damps_slack, class S>
 HYDRODAE_PART void pull_segments(const LineTable& table, int n, LineArrays<S>& arrays) {
   using std::sqrt;
@@ -112,7 +112,7 @@ HYDRODAE_PART void pull_segments(const LineTable& table, int n, LineArrays<S>& a
   span.clear(n + 1);
 }
 
-/// A segment that has parted pulls nothing and gives no direction, unless it is all there is.
+/// Removes a parted segment: it pulls nothing and gives no direction, unless it is the only one.
 template <class S>
 HYDRODAE_PART void part(const LineView<S>& at, const Triples<S>& pull, const Triples<S>& span) {
   const int k = at.parted, n = at.m.n();
@@ -126,7 +126,7 @@ HYDRODAE_PART void part(const LineView<S>& at, const Triples<S>& pull, const Tri
   span.clear(k + 1);
 }
 
-/// Adds the forces of bending (see add_elastic before: -grad of c (1 - e_a . e_b)).
+/// Adds the forces of bending: -grad of c (1 - e_a . e_b).
 template <class S>
 HYDRODAE_PART void bend(const LineView<S>& at, LineArrays<S>& arrays, const Triples<S>& force) {
   const Triples<S> x = triples(arrays, at_::place), q_a = triples(arrays, at_::before),
@@ -155,7 +155,7 @@ HYDRODAE_PART void bend(const LineView<S>& at, LineArrays<S>& arrays, const Trip
   }
 }
 
-/// Adds what the bed does.
+/// Adds the forces of the bed.
 template <bool damps_up, class S>
 HYDRODAE_PART void lie(const LineTable& table, int n, LineArrays<S>& arrays) {
   using std::sqrt;
@@ -178,7 +178,7 @@ HYDRODAE_PART void lie(const LineTable& table, int n, LineArrays<S>& arrays) {
   }
 }
 
-/// The motion of the water at the nodes, the surface above them, and what is beneath it.
+/// Computes the motion of the water at the nodes, the surface above them, and the wet parts.
 template <class S>
 HYDRODAE_PART void find_water(const LineTable& table, const LineView<S>& at,
                               const sea::WaveField& sea, double t, LineArrays<S>& arrays) {
@@ -227,7 +227,7 @@ HYDRODAE_PART void load_attached(const LineTable& table, const LineModel& m,
   }
 }
 
-/// Adds the water on the line, and finds the accelerations by the masses along and across it.
+/// Adds the water on the line, and computes the accelerations from the masses along and across it.
 template <bool waves, class S>
 HYDRODAE_PART void flow(const LineTable& table, int n, LineArrays<S>& arrays) {
   using std::abs, std::sqrt;
@@ -324,7 +324,7 @@ HYDRODAE_PART void evaluate(const LineTable& table, const LineView<S>& at,
     Eigen::Map<Vec3<S>>(load + 3 * end) = arrays.force(end == 0 ? 0 : n);
 }
 
-// One of each instruction set.
+// One function for each instruction set.
 #define HYDRODAE_EVALUATE(set, target)                                                             \
   target void evaluate_##set(const LineTable& table, const LineView<double>& at,                   \
                              const sea::WaveField& sea, double t, LineArrays<double>& arrays,      \

@@ -1,6 +1,6 @@
 #pragma once
-/// The equations of line_model.h for all nodes of a line at once: loops over arrays, which the
-/// compiler turns into instructions on several nodes.
+/// Equations of line_model.h for all nodes of a line at once: loops over arrays, which the compiler
+/// vectorises.
 
 #include <vector>
 
@@ -9,23 +9,23 @@
 
 namespace hydrodae::line {
 
-/// The numbers of a line, array by array.
+/// Parameters of a line, array by array.
 struct LineTable {
   explicit LineTable(const LineModel& m);
 
   Eigen::ArrayXXd segments;  ///< (N, .) columns in line_table.cpp
   Eigen::ArrayXXd nodes;     ///< (N + 1, .)
   std::vector<int> attached; ///< nodes with an attachment
-  double reach = 0.0;        ///< no part of a node is higher above it [m]
-  double bed_top = 0.0;      ///< no node above this height feels the bed [m]
+  double reach = 0.0;        ///< upper bound of the height of a part above its node [m]
+  double bed_top = 0.0;      ///< height above which no node touches the bed [m]
 };
 
-/// Scratch of an evaluation, which leaves the forces on the nodes in it, all but inertia.
+/// Scratch of an evaluation; it keeps the forces on the nodes, without inertia.
 template <class S> class LineArrays {
 public:
   /// Array k of those for `nodes` nodes.
   S* column(int k) { return memory_.data() + static_cast<std::size_t>(k) * rows_; }
-  void resize(int nodes, int columns) { // grows to the most that was ever asked for
+  void resize(int nodes, int columns) { // grows to the largest size so far
     rows_ = static_cast<std::size_t>(nodes);
     if (memory_.size() < rows_ * static_cast<std::size_t>(columns))
       memory_.resize(rows_ * static_cast<std::size_t>(columns));
@@ -37,9 +37,9 @@ private:
   std::vector<S> memory_;
 };
 
-/// Loads on the ends, and rates of the states. The loops for doubles are compiled for the plain
-/// processor, for AVX2 and for AVX-512, and the widest that the machine has is taken at run time;
-/// all give the same numbers.
+/// Loads on the ends, and rates of the states. The loops for doubles are compiled for plain
+/// processors, AVX2 and AVX-512; the widest available is chosen at run time. All give the same
+/// numbers.
 void evaluate_line(const LineTable& table, const LineView<double>& at, const sea::WaveField& sea,
                    double t, LineArrays<double>& arrays, double* load, double* z_dot);
 void evaluate_line(const LineTable& table, const LineView<Dual>& at, const sea::WaveField& sea,

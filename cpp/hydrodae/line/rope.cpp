@@ -24,7 +24,7 @@ std::vector<element::Schedule> winch_schedules(const std::vector<Rope>& ropes) {
 
 namespace {
 
-/// Ropes over one number of points.
+/// Ropes over an equal number of points.
 class RopeList final : public element::Elements {
 public:
   explicit RopeList(const std::vector<Rope>& ropes)
@@ -51,7 +51,7 @@ public:
     each(t, in, held, out);
   }
 
-  /// With g = dl/dx: load = -T g, T_x = (EA g + D dl'/dx) / L0, T_v = D g / L0.
+  /// Jacobian with g = dl/dx: load = -T g, T_x = (EA g + D dl'/dx) / L0, T_v = D g / L0.
   void jacobian(double t, const double* in, const double* held, double* jacobian) const override {
     for (std::size_t k = 0; k < laws_.size(); ++k) {
       const int w = shape.width;
@@ -67,7 +67,7 @@ public:
             J.block<3, 3>(3 * i, 3 * j) -= gi * by_x.transpose();
             J.block<3, 3>(3 * i, w + 3 * j) -= c * gi * gj.transpose();
           }
-        for (int i = 0; i + 1 < n_; ++i) { // -T d g / dx of each span
+        for (int i = 0; i + 1 < n_; ++i) { // Term -T d g / dx of each span.
           const Vector3 d = span(in, i), e = d.normalized();
           const Matrix3 P = now.tension / d.norm() * (Matrix3::Identity() - e * e.transpose());
           J.block<3, 3>(3 * i, 3 * i) -= P;
@@ -83,7 +83,7 @@ public:
 
   void energy(const double* in, const double* held, double* joules) const override {
     for (std::size_t k = 0; k < laws_.size(); ++k, in += 2 * shape.width) {
-      const double free = laws_[k].length + held[2 * k]; // a winch works on it besides
+      const double free = laws_[k].length + held[2 * k]; // a winch also works on the rope
       const double stretch = std::max(0.0, total<double>(in) - free);
       joules[k] =
           !laws_[k].winch.winds() ? 0.5 * laws_[k].stiffness * stretch * stretch / free : 0.0;
@@ -114,7 +114,7 @@ private:
   };
   template <class S> struct State {
     S tension;
-    double free, free_rate; ///< L0, L0'
+    double free, free_rate; ///< unstretched length L0 and its rate
     S tautness{0};          ///< see RopeState
     bool pulls = false;
   };
@@ -180,7 +180,7 @@ private:
     }
   }
 
-  /// d l / d (place of point i).
+  /// Derivative of l by the place of point i.
   Vector3 slope(const double* in, int i) const {
     Vector3 out = Vector3::Zero();
     if (i > 0)
@@ -189,7 +189,7 @@ private:
       out -= span(in, i).normalized();
     return out;
   }
-  /// d l' / d (place of point i).
+  /// Derivative of l' by the place of point i.
   Vector3 rate_slope(const double* in, int i) const {
     Vector3 out = Vector3::Zero();
     const auto across = [&](int k) {
@@ -214,7 +214,7 @@ std::shared_ptr<const element::Elements> Rope::list(const std::vector<Rope>& rop
     std::vector<std::shared_ptr<const element::Elements>> whole;
     std::vector<Breaking::Bears> bears;
     for (Rope rope : ropes) {
-      // The largest tension is the first channel of all ropes.
+      // The first channel of all ropes is the largest tension.
       bears.emplace_back([load = *rope.breaking_load](const double*, const double* values) {
         return element::Overload{values[0] / load, 1};
       });

@@ -12,13 +12,13 @@
 namespace hydrodae::line {
 
 /// Elastic rope without mass, straight between points of bodies or of the ground, over which it
-/// runs without friction: one tension all along.
+/// runs without friction: one tension in all parts.
 ///
 ///   T = max(0, EA (l - L0) + D (l' - L0')) / L0     where l > L0, else 0 [N]
 ///   force on point i = T (e_i - e_(i-1)),  e_i: direction from point i to point i + 1
 ///
-/// l: sum of the distances [m]. A winch that changes L0 in time gives the power -T L0'. Over
-/// sheaves it runs as rope_path.h says, and with friction as rope_capstan.h says.
+/// l: sum of the distances [m]. A winch that changes L0 gives the power -T L0'. For sheaves see
+/// rope_path.h, for friction rope_capstan.h.
 struct Rope {
   static constexpr std::string_view type = "rope";
   static constexpr std::string_view doc = "Elastic rope without mass over points and sheaves of "
@@ -32,36 +32,36 @@ struct Rope {
   double damping = 0.0;
   std::optional<double> length, pretension;
   std::vector<double> winch_time, winch_length;
-  std::vector<double> radii; ///< of each point; empty: zeros
+  std::vector<double> radii; ///< radius at each point; empty: zeros
   std::vector<Vector3> axes;
-  std::vector<double> friction; ///< coefficient of each point, or of all between the ends
+  /// Friction coefficient of each point, or one for all between the ends
+  std::vector<double> friction;
   std::optional<double> breaking_load;
   bool breaks = false;
 
   bool has_sheave(std::size_t point) const { return !radii.empty() && radii[point] > 0.0; }
-  bool is_plain() const; ///< without sheaves
+  bool is_plain() const; ///< true without sheaves
   double friction_at(std::size_t point) const;
-  bool has_friction() const; ///< anywhere
+  bool has_friction() const; ///< true if any point has friction
 
-  /// What the port joins, by the names of the bodies: the points, after them one for each sheave,
-  /// at its radius along its axis, and then one for each sheave with friction, at its radius
-  /// across.
+  /// Points of the port, by the names of the bodies: the points of the rope, then for each sheave
+  /// one at its radius along its axis, then for each sheave with friction one at its radius across.
   std::vector<std::pair<std::string, Vector3>> ends() const;
 
   /// Length along its points and sheaves in the reference pose [m].
   double distance() const;
-  /// Unstretched length that does not follow a winch [m].
+  /// Unstretched length without the change by a winch [m].
   double free_length() const;
-  /// Are two points in a row at one place in the reference pose?
+  /// Returns whether two successive points coincide in the reference pose.
   bool has_point_twice() const;
 
-  /// Ropes of one shape make one list: as many points, sheaves, and places with friction, and all
-  /// have breaking loads, or all break, or none.
+  /// Index of the list: ropes in one list have equal numbers of points, sheaves and places with
+  /// friction. All have breaking loads, or all break, or none does.
   std::size_t shape() const;
 
   static std::shared_ptr<const element::Elements> list(const std::vector<Rope>& ropes);
 
-  /// What is wrong with it, if anything.
+  /// Fault in the parameters, or nothing.
   std::optional<Fault> fault() const;
 
   template <class R = Rope> static Fields<R> fields() {

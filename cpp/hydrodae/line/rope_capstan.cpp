@@ -9,7 +9,7 @@ namespace hydrodae::line {
 
 namespace {
 
-constexpr int most_points_seen = 3 * most_rope_nodes; ///< three a node
+constexpr int most_points_seen = 3 * most_rope_nodes; ///< three points for each node
 
 } // namespace
 
@@ -30,7 +30,7 @@ CapstanModel::CapstanModel(const Rope& of) : base(of) {
       spin_at_[static_cast<std::size_t>(i)] = next++;
 }
 
-/// c' is the derivative of c along the motion.
+/// Slip speeds of the places; c' is the derivative of c along the motion.
 void CapstanModel::slips(double t, const double* in, const double* z, const double* held,
                          const CapstanState<double>& now, double* v) const {
   std::array<Dual, 6 * most_points_seen> moving;
@@ -55,10 +55,10 @@ void CapstanModel::slips(double t, const double* in, const double* z, const doub
 
 namespace {
 
-/// Ropes over as many points, sheaves, and places with friction.
+/// Ropes with equal numbers of points, sheaves, and places with friction.
 class CapstanRopes final : public element::Elements, public element::Rubbing {
 public:
-  /// @param rough  else nothing rubs: there is one tension, and there are no states
+  /// @param rough  false: no friction, one tension and no states
   explicit CapstanRopes(const std::vector<Rope>& ropes, bool rough = true)
       : ropes_(ropes), rough_(rough) {
     type = Rope::type;
@@ -122,7 +122,7 @@ public:
     CapstanState<double> now;
     for (std::size_t k = 0; k < size(); ++k, in += shape.n_in(), held += shape.n_signals) {
       joules[k] = 0.0;
-      if (models_[k].winds()) // a winch works on it besides
+      if (models_[k].winds()) // a winch also works on the rope
         continue;
       see(k, 0.0, in, held, now);
       for (int j = 0; j <= models_[k].n_places(); ++j) {
@@ -155,7 +155,8 @@ public:
         *values++ = now.parts[j].tension;
       for (int p = 0; p < n; ++p) {
         const double way = held[CapstanModel::way_at(p)];
-        const double slip = way * std::max(0.0, way * v[p]); // within the step that ends it
+        // zero slip within the step that ends it
+        const double slip = way * std::max(0.0, way * v[p]);
         power += (now.parts[p].tension - now.parts[p + 1].tension) * slip;
         *values++ = slip;
         if (now.places[p].touched)
@@ -168,7 +169,7 @@ public:
 
   bool lost_at_rest(std::size_t) const override { return false; }
 
-  /// It sticks at one tension all along, as if it had run there without friction.
+  /// Ropes that stick, with one tension, as if without friction so far.
   std::shared_ptr<const element::Elements> started(const double* in) const override {
     auto out = std::make_shared<CapstanRopes>(*this);
     out->start_at(in);
@@ -192,7 +193,7 @@ public:
       *out++ = room.backward;
     }
   }
-  /// One place at a time, the first that does not agree.
+  /// Changes one place at a time: the first that contradicts its signal.
   bool settle(std::size_t law, double t, const double* in, double* held) const override {
     const int most = 20 * (models_[law].n_places() + 1);
     for (int i = 0; i < most; ++i) {
@@ -214,11 +215,11 @@ private:
 
   const double* states_of(const double* in) const { return in + 2 * shape.width; }
 
-  struct Room { ///< until it slips forward or backward; where it slips, until it sticks
+  struct Room { ///< margin to slip forward or backward; for a place that slips, to sticking
     double forward = 1.0, backward = 1.0;
   };
   static Room room_at(const CapstanState<double>& now, int p, double way, double v) {
-    constexpr double little = 1e-9, least = 1e-13; // of the strain beyond that of slip, and strain
+    constexpr double little = 1e-9, least = 1e-13; // strain beyond that of slip; least strain
     const RopePlace<double>& place = now.places[p];
     if (way != 0.0)
       return {v == 0.0 ? 1.0 : way * v, 1.0};
@@ -229,7 +230,7 @@ private:
     return {E * before + least - after, E * after + least - before};
   }
 
-  /// The first place that does not do as the signals say.
+  /// First place that contradicts the signals.
   Change change(std::size_t k, double t, const double* in, const double* held) const {
     const CapstanModel& m = models_[k];
     CapstanState<double> now;
@@ -249,7 +250,8 @@ private:
     return {};
   }
 
-  /// Tolerances by what an error means to the tension: EA dc / L, against that at the start.
+  /// Tolerances from the effect of an error on the tension: EA dc / L, relative to the tension at
+  /// the start.
   void start_at(const double* in) {
     constexpr double least = 1e-6, longest = 0.1; // strain
     const auto stride = static_cast<std::size_t>(shape.n_signals);

@@ -1,26 +1,26 @@
 #pragma once
-/// Ropes that rub on points and sheaves of bodies (capstan friction). The places with friction part
-/// the rope; each part j has its own tension and unstretched length:
+/// Ropes with friction on points and sheaves of bodies (capstan friction). Places with friction
+/// divide the rope; each part j has its own tension and unstretched length:
 ///
 ///   T_j = max(0, EA e_j + D e_j'),   e_j = max(0, l_j - L_j) / L_j     strain
 ///   L_j = c_(j+1) - c_j                c: unstretched length before a place
 ///
-/// A place sticks or slips; which of both changes at located events. The place on a sheave is the
-/// middle of the arc, which moves by s' over the sheave; the sheave is fast on its body.
+/// A place sticks or slips; located events change its state. A place on a sheave is the middle of
+/// the arc, which moves by s' over the sheave; the sheave is fixed to its body.
 ///
 ///   stick:  v = 0:  c' = s' / (1 + (e_b + e_a) / 2), a state
 ///           until e_a > E e_b or e_b > E e_a,   E = exp(mu phi)
 ///   slip:   e_a = E e_b (v > 0), or e_b = E e_a (v < 0), with which c follows from the lengths
 ///           until v = s' - c' (1 + (e_b + e_a) / 2) changes its sign
 ///
-/// phi: angle of wrap; b, a: the parts before and after the place; v [m/s]: speed of the rope over
-/// it, towards its last point. Parts between which it slips are one: their strains are r_j e, and
+/// phi: angle of wrap; b, a: parts before and after the place; v [m/s]: speed of the rope over it,
+/// towards the last point. Parts with slip between them form one run: their strains are r_j e, and
 ///
 ///   sum_j l_j / (1 + r_j e) = c_end - c_start
 ///
-/// gives e, and with r held e'. So the tensions are in the ratio of the capstan at every instant,
-/// no state is stiff, and friction takes (T_a - T_b) v >= 0. With D, sticking goes by the elastic
-/// part of the tension.
+/// gives e, and with constant r also e'. The tensions thus have the capstan ratio at every instant,
+/// no state is stiff, and the dissipation (T_a - T_b) v is >= 0. With D, the elastic part of the
+/// tension decides on sticking.
 
 #include <algorithm>
 #include <array>
@@ -40,42 +40,43 @@ template <class S> struct RopePart {
   S tension{0};         ///< T
 };
 
-/// A point or sheave that the rope rubs on.
+/// Point or sheave with friction.
 template <class S> struct RopePlace {
   S grip{1};           ///< exp(mu phi)
   S flow{0};           ///< s'
   S stretch{1};        ///< 1 + (e_b + e_a) / 2
   S before{0};         ///< c
-  S before_rate{0};    ///< c' where it sticks
-  bool touched = true; ///< else its parts have one tension
-  bool holds = false;  ///< it sticks
+  S before_rate{0};    ///< c' of a place that sticks
+  bool touched = true; ///< false: the rope has left it, and its parts have one tension
+  bool holds = false;  ///< true: it sticks
 };
 
 template <class S> struct CapstanState {
-  RopeState<S> rope;                   ///< its tension is not used
-  S free{0}, free_rate{0};             ///< L0, L0'
-  std::array<S, most_rope_nodes> spin; ///< of sheaves with friction about their axes [rad/s]
-  std::array<Vec3<S>, most_rope_nodes> across; ///< fast on them, across the axes
+  RopeState<S> rope;       ///< path; its tension is not used
+  S free{0}, free_rate{0}; ///< L0, L0'
+  /// Angular velocity of sheaves with friction about their axes [rad/s]
+  std::array<S, most_rope_nodes> spin;
+  std::array<Vec3<S>, most_rope_nodes> across; ///< directions fixed on the sheaves, across the axes
   std::array<RopePart<S>, most_rope_nodes> parts;
   std::array<RopePlace<S>, most_rope_nodes> places;
 };
 
-/// What one place does: two signals of the law.
+/// State of one place: two signals of the law.
 enum class Rub { stick = 0, forward = 1, backward = -1 };
 
 class CapstanModel {
 public:
   explicit CapstanModel(const Rope& of);
 
-  /// Numbers of the signals: the change of length, and (way, offset) of each place.
+  /// Indices of the signals: the change of length, and (way, offset) of each place.
   static constexpr int way_at(int place) { return 1 + 2 * place; }
   static constexpr int offset_at(int place) { return 2 + 2 * place; }
 
   RopeModel base;
-  std::vector<int> nodes; ///< those with friction
+  std::vector<int> nodes; ///< nodes with friction
   int n_places() const { return static_cast<int>(nodes.size()); }
 
-  /// @param z     (n_places,) c where it sticks, less the offset; null: nothing rubs
+  /// @param z     (n_places,) c of places that stick, less the offset; null: no friction
   /// @param free  L0 and its rate without the change of length
   template <class S>
   void see(const S* in, const S* z, const double* held, const S& free, const S& free_rate,
@@ -94,15 +95,15 @@ public:
   }
   template <class S> void load(const CapstanState<S>& now, S* out) const;
 
-  /// v (n_places,) [m/s], 0 where it sticks.
-  /// @param now  seen there and then
+  /// Slip speeds v (n_places,) [m/s]; 0 for places that stick.
+  /// @param now  state at the same time
   void slips(double t, const double* in, const double* z, const double* held,
              const CapstanState<double>& now, double* v) const;
   bool winds() const { return base.winch.winds(); }
 
 private:
   std::array<bool, most_rope_nodes> rubs_{};
-  std::array<int, most_rope_nodes> axis_at_{}, spin_at_{}; ///< numbers of the helping points
+  std::array<int, most_rope_nodes> axis_at_{}, spin_at_{}; ///< indices of the auxiliary points
 
   bool rubs(int node) const { return rubs_[static_cast<std::size_t>(node)]; }
   template <class S>
@@ -142,8 +143,8 @@ template <class S> void CapstanModel::look(const S* in, CapstanState<S>& now) co
   measure(now);
 }
 
-/// Lengths of the parts, their rates, and how the places move along the sheaves. A part behind a
-/// sheave that the rope has left has no length: it is one with that before it.
+/// Computes lengths of the parts, their rates, and the speeds of the places along the sheaves. The
+/// part after a sheave that the rope has left has no length: it belongs to the part before.
 template <class S> void CapstanModel::measure(CapstanState<S>& now) const {
   using std::exp;
   const RopePath<S>& path = now.rope.path;
@@ -192,8 +193,8 @@ template <class S> void CapstanModel::measure(CapstanState<S>& now) const {
   }
 }
 
-/// What sticks, and the ratios of the strains to that of the first part since the last place that
-/// sticks.
+/// Sets the places that stick, and the ratios of strains to that of the first part since the last
+/// place that sticks.
 template <class S>
 void CapstanModel::set_places(const S* z, const double* held, CapstanState<S>& now) const {
   for (int p = 0; p < n_places(); ++p) {
@@ -210,12 +211,12 @@ void CapstanModel::set_places(const S* z, const double* held, CapstanState<S>& n
   }
 }
 
-/// The strain e where sum l_j / (1 + r_j e) = L over parts [first, last]: by Newton's method from
-/// below, along a convex curve; 0 where they are slack.
+/// Solves sum l_j / (1 + r_j e) = L over parts [first, last] for e by Newton's method from below,
+/// along a convex curve; e = 0 for slack parts.
 template <class S>
 S strain_of_parts(const RopePart<S>* first, const RopePart<S>* last, const S& free) {
   constexpr int most = 200;
-  if (!(free > S(0))) // all of it has run over the place
+  if (!(free > S(0))) // the whole length has passed the place
     return S(std::numeric_limits<double>::quiet_NaN());
   S e(0);
   bool close = false;
@@ -237,7 +238,8 @@ S strain_of_parts(const RopePart<S>* first, const RopePart<S>* last, const S& fr
   return S(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// Parts that are one: act(first, last), which end at the places first - 1 and last.
+/// Visits runs of parts without sticking between them: act(first, last), ending at the places first
+/// - 1 and last.
 template <class S, class Act> void for_each_run(const CapstanState<S>& now, int n, Act&& act) {
   for (int first = 0, p = 0; p <= n; ++p)
     if (p == n || now.places[p].holds) {
@@ -265,7 +267,7 @@ template <class S> void CapstanModel::set_strains(CapstanState<S>& now) const {
   }
 }
 
-/// Tensions: those of strain, and of its rate with r held.
+/// Computes the tensions from the strain and, with r constant, its rate.
 template <class S> void CapstanModel::pull(CapstanState<S>& now) const {
   const int n = n_places();
   const S EA(base.rope.stiffness), D(base.rope.damping);
@@ -288,7 +290,7 @@ template <class S> void CapstanModel::pull(CapstanState<S>& now) const {
   });
 }
 
-/// A sheave with friction takes the moment about its axis, too, by its third point.
+/// Adds the loads. The third point of a sheave with friction takes the moment about its axis.
 template <class S> void CapstanModel::load(const CapstanState<S>& now, S* out) const {
   std::fill_n(out, base.width, S(0));
   const auto put = [&](int i, const Vec3<S>& rho, const Vec3<S>& force) {

@@ -1,4 +1,4 @@
-/// What the keys of a rope mean, and what is wrong with them.
+/// Meaning and checks of the keys of a rope.
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +43,7 @@ std::vector<std::pair<std::string, Vector3>> Rope::ends() const {
 
 namespace {
 
-/// In the reference pose.
+/// Path in the reference pose.
 RopePath<double> reference_path(const Rope& rope) {
   std::array<RopeNode<double>, most_rope_nodes> nodes;
   for (std::size_t i = 0; i < rope.points.size(); ++i) {
@@ -119,7 +119,7 @@ std::optional<Fault> fault_of_friction(const Rope& rope) {
   return {};
 }
 
-/// Keys that hold one entry for each point.
+/// Checks keys with one entry for each point.
 std::optional<Fault> fault_of_lists(const Rope& rope) {
   const std::vector<std::pair<std::string, std::size_t>> all = {{"radii", rope.radii.size()},
                                                                 {"axes", rope.axes.size()}};
@@ -137,7 +137,7 @@ std::optional<Fault> fault_of_lists(const Rope& rope) {
   return {};
 }
 
-/// Of the path in the reference pose.
+/// Checks the path in the reference pose.
 std::optional<Fault> fault_of_path(const Rope& rope) {
   const RopePath<double> path = reference_path(rope);
   const auto label = [](int i) { return " (point " + std::to_string(i + 1) + ")"; };

@@ -1,5 +1,5 @@
 #pragma once
-/// Ropes over sheaves that turn freely, with one tension all along:
+/// Ropes over sheaves that turn freely, with one tension in all parts:
 ///
 ///   T = max(0, EA (l - L0) + D (l' - L0')) / L0     where l > L0, else 0 [N]
 ///
@@ -14,7 +14,7 @@
 
 namespace hydrodae::line {
 
-/// Unstretched length by a table; it stands before and after it.
+/// Change of unstretched length by a table, constant before and after it.
 struct Winch {
   Curve table;
   double begin = 0.0, end = 0.0; ///< [s]
@@ -28,24 +28,24 @@ struct Winch {
     end = rope.winch_time.back();
   }
   bool winds() const { return !table.empty(); }
-  /// Length and its rate.
+  /// Change of length and its rate.
   Dual at(double t) const {
     const double inside = std::clamp(t, begin, end);
     return table(Dual(inside, t == inside ? 1.0 : 0.0));
   }
 };
 
-/// The number of the kink of a rope: its strain, or T / EA where that is less, as of a rope whose
-/// damper would push. It pulls above 0.
+/// Switching function of a rope: its strain, or T / EA if that is less (a damper that would push).
+/// The rope pulls above 0.
 template <class S> S tautness_of(const S& strain, const S& by_tension) {
   return strain > S(0) && by_tension < strain ? by_tension : strain;
 }
-/// @param side  of the kink; 0: not known
+/// @param side  side of the kink; 0: unknown
 template <class S> bool rope_pulls(const S& tautness, double side) {
   return side != 0.0 ? side > 0.0 : tautness > S(0);
 }
 
-/// Where a rope runs, and how it pulls.
+/// Path and tension of a rope.
 template <class S> struct RopeState {
   std::array<RopeNode<S>, most_rope_nodes> nodes;
   RopePath<S> path;
@@ -54,7 +54,8 @@ template <class S> struct RopeState {
   double free = 0.0, free_rate = 0.0; ///< L0, L0'
 };
 
-/// It sees the places and velocities of its points, and of one more for each sheave.
+/// Rope model; its inputs are the places and velocities of its points, and of one more for each
+/// sheave.
 class RopeModel {
 public:
   explicit RopeModel(const Rope& of)
@@ -63,17 +64,17 @@ public:
 
   Rope rope;
   Winch winch;
-  double length = 0.0; ///< L0 without the winch [m]
+  double length = 0.0; ///< unstretched length L0 without the winch [m]
   int n_points = 0, width = 0;
 
-  /// @param held  change of the unstretched length [m], side of the kink
+  /// @param held  change of the unstretched length [m]; side of the kink
   template <class S> void see(double t, const S* in, const double* held, RopeState<S>& now) const {
     see_nodes(in, in + width, now.nodes.data());
     lay_rope<S>(now.nodes.data(), n_points, now.path);
     measure(now);
     pull(t, held, now);
   }
-  /// Loads on the points.
+  /// Writes the loads on the points.
   template <class S> void load(const RopeState<S>& now, S* out) const;
   template <class S> void see_nodes(const S* x, const S* v, RopeNode<S>* nodes) const;
 
@@ -101,8 +102,8 @@ template <class S> void RopeModel::see_nodes(const S* x, const S* v, RopeNode<S>
   }
 }
 
-/// The length and its rate: that of the straight parts, since the points of contact move along the
-/// rope.
+/// Computes the length and its rate. The rate is that of the straight parts, because the points of
+/// contact move along the rope.
 template <class S> void RopeModel::measure(RopeState<S>& now) const {
   now.length = now.rate = S(0);
   for (int i = 0; i < now.path.n_spans; ++i) {
@@ -128,8 +129,8 @@ template <class S> void RopeModel::pull(double t, const double* held, RopeState<
   now.tension = rope_pulls(now.tautness, held[1]) ? T : S(0);
 }
 
-/// A force at a point of contact, on the two points that stand for a sheave: at its centre C and at
-/// C + R a, with the moment R a x F of the force about the centre. Its moment about the axis is
+/// Puts a force at a point of contact onto the two points of a sheave: its centre C and C + R a.
+/// The moment about C is R a x F; the moment about the axis is zero.
 /// zero.
 template <class S>
 void put_on_sheave(const RopeNode<S>& node, const Vec3<S>& rho, const Vec3<S>& force, S* at_centre,
@@ -163,7 +164,7 @@ template <class S> void RopeModel::load(const RopeState<S>& now, S* out) const {
   }
 }
 
-/// What the winches do, known ahead.
+/// Schedules of the winches, known in advance.
 std::vector<element::Schedule> winch_schedules(const std::vector<Rope>& ropes);
 
 std::shared_ptr<const element::Elements> ropes_over_sheaves(const std::vector<Rope>& ropes);

@@ -1,12 +1,13 @@
 #pragma once
-/// Where a taut rope runs over points and sheaves: straight parts, and arcs on the sheaves.
+/// Path of a taut rope over points and sheaves: straight parts, and arcs on the sheaves.
 ///
-///   X = C + R rho,   tau = a x rho,   e . rho = 0,   e . tau > 0      where it comes on or leaves
+///   X = C + R rho,   tau = a x rho,   e . rho = 0,   e . tau > 0      at the ends of each arc
 ///
-/// C, R: centre and radius of a sheave; a: its axis, about which the rope runs by the rule of the
-/// right hand; rho: from the centre to the point of contact X; e: along the straight part. A point
-/// is a sheave without radius. Straight parts may leave the plane of a sheave by a small angle f
-/// (the fleet angle); energy is kept up to a part f^2 of what is laid on or off meanwhile.
+/// C, R: centre and radius of a sheave; a: its axis, which the rope circles by the right-hand rule;
+/// rho: direction from the centre to the point of contact X; e: direction of the straight part. A
+/// point is a sheave without radius. Straight parts may leave the plane of a sheave by a small
+/// angle f (fleet angle); energy is kept up to a part f^2 of the energy of the rope that runs on or
+/// off.
 
 #include <array>
 #include <cmath>
@@ -18,35 +19,35 @@ namespace hydrodae::line {
 
 inline constexpr int most_rope_nodes = 20;
 
-/// A point of the rope, or a sheave.
+/// Point of the rope, or sheave.
 template <class S> struct RopeNode {
   double radius = 0.0;
   Vec3<S> place = Vec3<S>::Zero(), velocity = Vec3<S>::Zero();
   Vec3<S> axis = Vec3<S>::Zero(), axis_rate = Vec3<S>::Zero(); ///< a, a'
 };
 
-/// A straight part from one node to another.
+/// Straight part from one node to another.
 template <class S> struct RopeSpan {
   int from = 0, to = 0;
   Vec3<S> e;
   S length;
-  Vec3<S> off, on; ///< rho where it leaves `from`, and comes on `to`; zero at points
+  Vec3<S> off, on; ///< rho at the ends on `from` and `to`; zero at points
 };
 
 template <class S> struct RopePath {
   std::array<RopeSpan<S>, most_rope_nodes> spans;
   int n_spans = 0;
   std::array<S, most_rope_nodes> wrap;       ///< angle of wrap [rad]
-  std::array<bool, most_rope_nodes> touched; ///< does it touch the node?
+  std::array<bool, most_rope_nodes> touched; ///< true if the rope touches the node
 };
 
-/// Of a sheave where the rope touches it, which turns freely about its axis.
+/// Velocity of the contact point of a sheave that turns freely about its axis.
 template <class S> Vec3<S> contact_velocity(const RopeNode<S>& node, const Vec3<S>& rho) {
   return node.velocity - S(node.radius) * dot(rho, node.axis_rate) * node.axis;
 }
 
-/// rho of the tangent from a sheave to `target` (leaves), or from there to the sheave. No number
-/// where the target is inside.
+/// Direction rho of the tangent from a sheave to `target` (leaves), or from there to the sheave;
+/// NaN if the target is inside.
 template <class S> Vec3<S> touching(const RopeNode<S>& sheave, const Vec3<S>& target, bool leaves) {
   using std::sqrt;
   const Vec3<S> d = target - sheave.place;
@@ -55,8 +56,8 @@ template <class S> Vec3<S> touching(const RopeNode<S>& sheave, const Vec3<S>& ta
   return (R * p + (leaves ? -t : t) * cross(sheave.axis, p)) / square;
 }
 
-/// Conditions of contact g = (d . rho_a, d . rho_b), d = X_b - X_a, by turning both rho about
-/// their axes: M turn = -g; of a point: no turn.
+/// Contact conditions g = (d . rho_a, d . rho_b), d = X_b - X_a, and their solution by rotations of
+/// both rho about the axes: M turn = -g; a point does not rotate.
 template <class S> struct Contact {
   Vec3<S> d, tau_a, tau_b;
   S m[2][2];
@@ -83,7 +84,7 @@ template <class S> void turn_about(const Vec3<S>& tau, const S& angle, Vec3<S>& 
   rho = cos(angle) * rho + sin(angle) * tau;
 }
 
-/// The straight part between two nodes, by Newton's method where both are sheaves.
+/// Finds the straight part between two nodes, by Newton's method if both are sheaves.
 template <class S> void span_between(const RopeNode<S>& a, const RopeNode<S>& b, RopeSpan<S>& s) {
   using std::sqrt;
   constexpr int newton_steps = 6;
@@ -106,15 +107,16 @@ template <class S> void span_between(const RopeNode<S>& a, const RopeNode<S>& b,
   s.e = d / s.length;
 }
 
-/// From `a` to `b` about `axis`, in [-pi/2, 3 pi/2): below zero the rope has left the sheave.
+/// Angle from `a` to `b` about `axis`, in [-pi/2, 3 pi/2): negative if the rope has left the
+/// sheave.
 template <class S> S angle_about(const Vec3<S>& axis, const Vec3<S>& a, const Vec3<S>& b) {
   using std::atan2;
   const S angle = atan2(dot(cross(a, b), axis), dot(a, b));
   return angle < S(-0.5 * pi) ? angle + S(2.0 * pi) : angle;
 }
 
-/// Between two directions, in [0, pi]. At both ends of that range it has no derivative; the mean of
-/// those around is zero.
+/// Angle between two directions, in [0, pi]. At both ends of that range it has no derivative; zero
+/// is taken, the mean of the derivatives around.
 template <class S> S angle_between(const Vec3<S>& a, const Vec3<S>& b) {
   using std::atan2;
   using std::sqrt;
@@ -125,7 +127,7 @@ template <class S> S angle_between(const Vec3<S>& a, const Vec3<S>& b) {
   return dot(a, b) < S(0) ? S(pi) : S(0);
 }
 
-/// The path over n nodes, of which those stay aside that the rope has left.
+/// Lays the path over n nodes, without those that the rope has left.
 template <class S> void lay_rope(const RopeNode<S>* nodes, int n, RopePath<S>& path) {
   path.touched.fill(true);
   path.wrap.fill(S(0));

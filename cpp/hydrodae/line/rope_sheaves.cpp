@@ -6,7 +6,7 @@ namespace hydrodae::line {
 
 namespace {
 
-/// Ropes over as many points, and sheaves among them.
+/// Ropes with equal numbers of points and sheaves.
 class SheavedRopes final : public element::Elements {
 public:
   explicit SheavedRopes(const std::vector<Rope>& ropes) {
@@ -36,7 +36,7 @@ public:
   }
 
   void jacobian(double t, const double* in, const double* held, double* jacobian) const override {
-    constexpr int most = 2 * 3 * most_rope_nodes; // two points a node
+    constexpr int most = 2 * 3 * most_rope_nodes; // two points for each node
     std::array<Dual, 2 * most> x;
     std::array<Dual, most> y;
     RopeState<Dual> now;
@@ -60,7 +60,7 @@ public:
       const RopeModel& m = models_[k];
       m.see(0.0, in, held + 2 * k, now);
       const double stretch = std::max(0.0, now.length - now.free);
-      joules[k] = m.winch.winds() ? 0.0 // a winch works on it besides
+      joules[k] = m.winch.winds() ? 0.0 // a winch also works on the rope
                                   : 0.5 * m.rope.stiffness * stretch * stretch / now.free;
     }
   }

@@ -1,8 +1,8 @@
 #pragma once
-/// Vectors as three plain numbers, or in three arrays: Eigen's keep the compiler from combining
-/// what loops do at several places.
+/// Vectors as three plain numbers, or in three arrays: the compiler can vectorise loops over them,
+/// but not over Eigen's vectors.
 
-// Part of a function of each instruction set, so it must be inlined.
+// Part of a function for each instruction set: it must be inlined.
 #define HYDRODAE_PART [[gnu::always_inline]] inline
 
 namespace hydrodae::line {
@@ -23,7 +23,7 @@ template <class S> struct Triple {
   }
 };
 
-/// Three arrays as one of vectors.
+/// Vectors stored in three arrays.
 template <class S> struct Triples {
   S *x, *y, *z;
   HYDRODAE_PART Triple<S> operator[](int i) const { return {x[i], y[i], z[i]}; }

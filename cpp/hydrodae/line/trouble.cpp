@@ -8,7 +8,7 @@ namespace hydrodae::line {
 std::string trouble(std::string_view type, std::span<const double> in) {
   if (type != CatenaryLine::type)
     return {};
-  const double rise = in[5] - in[2]; // of end B over end A
+  const double rise = in[5] - in[2]; // height of end B above end A
   if (rise < 0.0)
     return "end B is " + rounded_text(-rise) +
            " m below the seabed, which is at the height of end A";

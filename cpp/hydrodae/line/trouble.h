@@ -5,8 +5,7 @@
 
 namespace hydrodae::line {
 
-/// Why a law of this type that sees the numbers `in` has a load that is no number, in words; empty:
-/// nothing is known of it.
+/// Reason why the load of a law of this type with the inputs `in` is not a number; empty: unknown.
 std::string trouble(std::string_view type, std::span<const double> in);
 
 } // namespace hydrodae::line

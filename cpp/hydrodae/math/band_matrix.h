@@ -15,9 +15,9 @@ public:
   /// Entry (i, j), |i - j| <= reach, until it is factorised.
   double& operator()(Index i, Index j) { return band_(2 * reach_ + i - j, j); }
 
-  /// In place. @returns false where a pivot is zero or not finite
+  /// Factorises in place. @returns false if a pivot is zero or not finite
   bool factorise();
-  /// x = A^-1 x, column by column.
+  /// Solves x = A^-1 x, column by column.
   void solve(Eigen::Ref<MatrixX> x) const;
 
 private:

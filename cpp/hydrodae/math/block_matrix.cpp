@@ -32,8 +32,8 @@ bool BlockMatrix::widen(const std::vector<Block>& next, std::size_t first) {
 }
 
 template <class Entries> void BlockMatrix::make(const Entries& entries) {
-  std::vector<Block> runs; // of one column
-  std::size_t first = 0;   // of the blocks of the column before
+  std::vector<Block> runs; // blocks of one column
+  std::size_t first = 0;   // index of the first block of the column before
   const auto close = [&] {
     if (!widen(runs, first)) {
       first = blocks_.size();

@@ -1,6 +1,5 @@
 #pragma once
-/// A constant matrix as the dense blocks outside which it is zero, so that a product costs what is
-/// there.
+/// Constant matrix stored as dense blocks, so that a product costs only the nonzero blocks.
 
 #include <type_traits>
 #include <vector>
@@ -62,12 +61,12 @@ public:
 private:
   struct Block {
     Index row = 0, rows = 0, column = 0, columns = 0;
-    Index first = 0; ///< in `values_`, column by column
+    Index first = 0; ///< offset in `values_`, column by column
     Index end() const { return row + rows; }
   };
   template <class Entries> void make(const Entries& entries);
   bool widen(const std::vector<Block>& next, std::size_t first);
-  std::vector<Block> blocks_; ///< by columns, those of the same columns by rows
+  std::vector<Block> blocks_; ///< sorted by columns, those of the same columns by rows
   std::vector<double> values_;
 };
 

@@ -26,7 +26,7 @@ public:
   double front() const { return x_.front(); }
   double back() const { return x_.back(); }
 
-  /// The functions at x, and their first derivatives, (size,) each.
+  /// Values of the functions at x, and their first derivatives, (size,) each.
   template <class S> void values(const S& x, S* w, S* slope) const {
     const S inside = x < S(front()) ? S(front()) : x > S(back()) ? S(back()) : x;
     const S beyond = x - inside;

@@ -19,7 +19,7 @@ double weight_of(const Catenary& line) {
   return sum;
 }
 
-/// Least vertical force at the fairlead of a line on a bed: what floats may push it up.
+/// Least vertical force at the fairlead of a line on a bed: buoyant parts may push it up.
 double least_lift(const Catenary& line) {
   double sum = 0.0;
   for (const LinePart& part : line.parts)
@@ -58,7 +58,7 @@ template <class Function> double root(Function&& f, double low, double high) {
   return x;
 }
 
-/// V of a fairlead at height Z that pulls with H: heights grow with V.
+/// Vertical force V of a fairlead at height Z with the pull H: heights grow with V.
 double vertical(const Catenary& line, double H, double Z, double above) {
   double low = line.bed ? least_lift(line) : std::min(0.0, weight_of(line)),
          high = std::max(0.0, weight_of(line));
@@ -142,7 +142,7 @@ bool iterate(const Catenary& line, double X, double Z, double above, double& H, 
   return false;
 }
 
-/// Do parts that float, or those above them, come down to the bed?
+/// Returns whether buoyant parts, or those above them, sag to the bed.
 bool sags_to_bed(const Catenary& line, double H, double V, double above) {
   if (!line.bed || may_lie(line) == line.parts.size())
     return false;
@@ -200,7 +200,7 @@ CatenaryHold hold(const Catenary& line, double X, double Z, double above) {
   if (!(X >= 0.0) || !std::isfinite(Z) || (line.bed && Z < 0.0))
     return none;
   const double size = std::max(line.length(), std::hypot(X, Z));
-  // Next to no pull: the line hangs straight down, and the rest is slack.
+  // Almost no pull: the line hangs straight down, and the rest is slack.
   const double little = speck(line), V_slack = vertical(line, little, Z, above);
   const CatenaryReach slack = reach(line, little, V_slack, above);
   if (X <= slack.X) {
@@ -249,7 +249,7 @@ std::vector<LinePoint> profile(const Catenary& line, const CatenaryHold& found, 
   const double H = std::max(found.horizontal, speck(line)), all = line.length();
   std::vector<LinePoint> out;
   for (const double at : s) {
-    // What is above the point hangs as it does; the walk over it alone ends at the point.
+    // The line above the point hangs as before; the walk over it alone ends at the point.
     Catenary upper = line;
     double left = std::max(0.0, all - at);
     std::size_t first = upper.parts.size();

@@ -15,51 +15,53 @@
 
 namespace hydrodae {
 
-/// Along unstretched length, from the anchor up.
+/// Part of a line along the unstretched length, from the anchor up.
 struct LinePart {
   double length = 0.0;    ///< unstretched [m], > 0
-  double weight = 0.0;    ///< in the fluid, per unstretched length [N/m]; negative: buoyant
+  double weight = 0.0;    ///< weight in the fluid per unstretched length [N/m]; negative: buoyant
   double stiffness = 0.0; ///< EA [N], > 0
-  double buoyancy = 0.0;  ///< by which it is heavier out of the water [N/m], >= 0
+  double buoyancy = 0.0;  ///< additional weight out of the water [N/m], >= 0
 };
 
 /// A body that hangs between two parts: a sphere where it crosses the surface.
 struct LineLoad {
-  double weight = 0.0;   ///< in the fluid [N]; negative: a buoy
-  double buoyancy = 0.0; ///< by which it is heavier out of the water [N], >= 0
+  double weight = 0.0;   ///< weight in the fluid [N]; negative: a buoy
+  double buoyancy = 0.0; ///< additional weight out of the water [N], >= 0
   double radius = 0.0;   ///< [m], > 0 with buoyancy
 };
 
 struct Catenary {
-  std::vector<LinePart> parts; ///< at least one
+  std::vector<LinePart> parts; ///< parts, at least one
   std::vector<LineLoad> loads; ///< (n_parts - 1,)
-  bool bed = false;      ///< flat, at the height of the anchor; carries the line from there on
-  double friction = 0.0; ///< of the bed, coefficient [-]
+  bool bed = false;            ///< true: a flat bed at the height of the anchor carries the line
+  double friction = 0.0;       ///< friction coefficient of the bed [-]
 
   double length() const; ///< unstretched [m]
 };
 
-/// What holds the line at the fairlead, X [m] off the anchor and Z [m] above it.
+/// Forces at the fairlead, X [m] off the anchor and Z [m] above it.
 struct CatenaryHold {
-  double horizontal = 0.0; ///< H, of the pull on the fairlead, towards the anchor [N]
-  double vertical = 0.0;   ///< V, downwards [N]
+  double horizontal = 0.0; ///< horizontal pull H on the fairlead, towards the anchor [N]
+  double vertical = 0.0;   ///< vertical pull V, downwards [N]
   Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero(); ///< d(H, V) / d(X, Z) of the fairlead [N/m]
   Eigen::Vector2d by_anchor = Eigen::Vector2d::Zero(); ///< -d(H, V) / d(height of anchor) [N/m]
   double anchor_stiffness = 0.0;  ///< -d(anchor_vertical) / d(height of anchor) [N/m]
   double out_of_plane = 0.0;      ///< H / X [N/m]
-  double on_bed = 0.0;            ///< unstretched length that lies [m]
+  double on_bed = 0.0;            ///< unstretched length on the bed [m]
   double anchor_horizontal = 0.0; ///< pull on the anchor, towards the fairlead [N]
-  double anchor_vertical = 0.0;   ///< upwards [N]; negative: the line hangs below the anchor
-  double tension() const { return std::hypot(horizontal, vertical); } ///< at the fairlead [N]
+  /// Vertical pull on the anchor, upwards [N]; negative: the line hangs below the anchor
+  double anchor_vertical = 0.0;
+  /// Tension at the fairlead [N]
+  double tension() const { return std::hypot(horizontal, vertical); }
 };
 
-/// Where a fairlead is that pulls with (H, V), and how that changes.
+/// Position of a fairlead with the forces (H, V), with its derivatives.
 struct CatenaryReach {
   using Row = Eigen::Vector3d; ///< derivatives by H, V [m/N], and by `above`
 
   double X = 0.0, Z = 0.0;                               ///< [m]
-  Row X_by = Row::Zero(), Z_by = Row::Zero();            ///< their derivatives
-  double on_bed = 0.0;                                   ///< unstretched length that lies [m]
+  Row X_by = Row::Zero(), Z_by = Row::Zero();            ///< derivatives of X and Z
+  double on_bed = 0.0;                                   ///< unstretched length on the bed [m]
   double anchor_horizontal = 0.0, anchor_vertical = 0.0; ///< [N]
   Row anchor_vertical_by = Row::Zero();
 
@@ -89,10 +91,10 @@ CatenaryHold hold(const Catenary& line, double X, double Z, double above = deep)
 double energy(const Catenary& line, const CatenaryHold& found, double X, double Z,
               double above = deep);
 
-/// The part that bears most beside what it can bear.
+/// Part with the largest ratio of tension to strength.
 struct LinePeak {
-  double ratio = 0.0;   ///< of its greatest tension to its strength
-  std::size_t part = 0; ///< from the anchor up
+  double ratio = 0.0;   ///< ratio of its largest tension to its strength
+  std::size_t part = 0; ///< number of the part, from the anchor up
 };
 
 /// @param strength  of all parts, or of each [N]
@@ -102,8 +104,8 @@ LinePeak peak(const Catenary& line, const CatenaryHold& found, double above,
 /// A point of the line.
 struct LinePoint {
   double s = 0.0;       ///< unstretched length from the anchor [m]
-  double x = 0.0;       ///< from the anchor [m]
-  double z = 0.0;       ///< above it [m]
+  double x = 0.0;       ///< horizontal distance from the anchor [m]
+  double z = 0.0;       ///< height above the anchor [m]
   double tension = 0.0; ///< [N]
 };
 

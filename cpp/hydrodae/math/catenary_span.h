@@ -10,7 +10,7 @@ namespace hydrodae {
 /// A length that hangs, in the plane of the line.
 struct Span {
   double x = 0.0, z = 0.0;
-  double x_H = 0.0, x_V = 0.0, z_V = 0.0; ///< at this length; z_H = x_V
+  double x_H = 0.0, x_V = 0.0, z_V = 0.0; ///< derivatives at this length; z_H = x_V
   double phi = 0.0; ///< int (T + T^2 / 2 EA) ds: x and z are its derivatives by H and V
 };
 
@@ -57,8 +57,8 @@ inline Span hang(double H, double V, double L, double w, double EA) {
   return out;
 }
 
-/// Length that hangs below a point with the vertical force V until it is d lower: on its way down
-/// with V' >= 0, or on its way up with V' <= 0; infinite where it never is.
+/// Length that hangs below a point with the vertical force V until it is d lower, on the way down
+/// (V' >= 0) or up (V' <= 0); infinite if it never is.
 ///
 ///   L = (V - V') / w,   T' + V'^2 / (2 EA) = T + V^2 / (2 EA) - w d
 inline double length_to_height(double H, double V, double w, double EA, double d, bool down) {

@@ -14,15 +14,15 @@ struct CatenaryWalk {
   using Row = CatenaryReach::Row; ///< derivatives by H, V and `above`
 
   const Catenary& line;
-  double H, V;  ///< at the fairlead
+  double H, V;  ///< forces at the fairlead
   double above; ///< height of the fairlead over the surface
   std::span<const double> strength = {};
 
   double below = V;     ///< vertical force at the upper end of what comes next
-  bool lies = false;    ///< all that comes next, on the bed
-  double pull = H;      ///< there
+  bool lies = false;    ///< true: all following parts lie on the bed
+  double pull = H;      ///< pull at that point
   double phi = 0.0;     ///< complementary energy, less what the heights of loads add [J]
-  double weight = 0.0;  ///< of all that has been passed [N]
+  double weight = 0.0;  ///< weight of everything passed [N]
   double deepest = 0.0; ///< how far parts above what floats sag below the fairlead [m]
   bool pressed = false; ///< does what is above press down on what floats, and that on the bed?
   Row below_by = Row::UnitY(), pull_by = Row::UnitX();

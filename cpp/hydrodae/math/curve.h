@@ -36,7 +36,7 @@ public:
 
   bool empty() const { return x_.empty(); }
 
-  /// What is wrong with such points; empty: nothing.
+  /// Fault in such points; empty: none.
   static std::string_view fault(const std::vector<double>& x, const std::vector<double>& y) {
     if (x.size() != y.size())
       return "has not as many numbers as";

@@ -93,7 +93,8 @@ Definite::RowMajor Definite::own_block(const Level& level, const Values& values,
   for (const std::size_t k : level.own) {
     Index u = local_[static_cast<std::size_t>(places_[k].column)],
           v = local_[static_cast<std::size_t>(places_[k].row)];
-    double turned = values.imaginary ? -values.imaginary[k] : 0.0; // of (u, v)
+    // imaginary part of (u, v), with its sign
+    double turned = values.imaginary ? -values.imaginary[k] : 0.0;
     if (u > v) {
       std::swap(u, v);
       turned = -turned;

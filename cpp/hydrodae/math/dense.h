@@ -12,13 +12,13 @@ namespace hydrodae {
 /// Thresholds are relative to the largest pivot; this one is Eigen's own, about the rounding.
 inline constexpr double by_rounding = -1.0;
 
-/// X of A X = B, by an LU decomposition with partial pivoting. A is square and has an inverse.
+/// Solution X of A X = B, by an LU decomposition with partial pivoting. A is square and regular.
 MatrixX solve_square(const MatrixX& A, const MatrixX& B);
 
-/// X of least |A X - B|, one of them when A lacks rank (column-pivoted QR).
+/// Minimiser X of |A X - B|, one of them if A lacks rank (column-pivoted QR).
 MatrixX least_squares(const MatrixX& A, const MatrixX& B);
 
-/// Of all x with least |A x - b| the smallest (complete orthogonal decomposition).
+/// Smallest x among the minimisers of |A x - b| (complete orthogonal decomposition).
 VectorX minimum_norm(const MatrixX& A, const VectorX& b, double threshold = by_rounding);
 
 /// Orthonormal columns that span {x : G x = 0} (n, n - rank).

@@ -46,7 +46,7 @@ struct Kernels {
   void (*subtract_product)(Index n, Index m, const double* w, const double* y, double* x);
 };
 
-/// Those that this machine can run, the widest last.
+/// Kernels that this machine can run, the widest last.
 std::span<const Kernels> all_kernels();
 
 inline const Kernels& kernels() { return all_kernels().back(); }

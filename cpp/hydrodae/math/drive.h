@@ -28,7 +28,7 @@ struct Drive {
   double phase = 0.0;
   double ramp = 0.0;
   std::vector<double> time, values;
-  CubicSpline table; ///< of `time` and `values`, made by `prepare`
+  CubicSpline table; ///< table of `time` and `values`, made by `prepare`
   bool python = false;
   std::function<std::array<double, 3>(double)> function; ///< f, f', f''; must not throw
 
@@ -37,10 +37,10 @@ struct Drive {
       table = CubicSpline(time, values);
   }
 
-  /// "0.1 + 0.2 sin(2 pi t / 5 - 30 deg) + a table of 12 points"
+  /// Text "0.1 + 0.2 sin(2 pi t / 5 - 30 deg) + a table of 12 points".
   std::string text() const;
 
-  /// Does f change other than linearly?
+  /// Returns whether f changes other than linearly.
   bool moves() const { return amplitude != 0.0 || !table.empty() || static_cast<bool>(function); }
 
   /// f, f', f'' at time t [s].

@@ -1,5 +1,5 @@
 #pragma once
-/// How far the mean of one record may be from the mean of the random process it is a sample of.
+/// Interval of the mean of one record about the mean of the random process that it samples.
 
 #include <cstddef>
 #include <optional>

@@ -14,7 +14,7 @@ public:
   explicit Sets(Index n) : parent_(static_cast<std::size_t>(n)) {
     std::iota(parent_.begin(), parent_.end(), Index{0});
   }
-  /// The least number of the set of i.
+  /// Least number in the set of i.
   Index root(Index i) {
     while (at(i) != i)
       i = at(i) = at(at(i));
@@ -29,8 +29,8 @@ public:
   /// All sets, by their least numbers; members ascend.
   struct Lists {
     std::vector<std::vector<Index>> members;
-    std::vector<std::size_t> set; ///< of each number
-    std::vector<Index> place;     ///< of each number in its set
+    std::vector<std::size_t> set; ///< set of each number
+    std::vector<Index> place;     ///< place of each number in its set
   };
   Lists lists() {
     Lists out{{}, std::vector<std::size_t>(parent_.size()), std::vector<Index>(parent_.size())};

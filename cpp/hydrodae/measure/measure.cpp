@@ -21,8 +21,8 @@ Measure::Measure(const system::Regime& system, double t0, const VectorX& y, cons
   before_ = state_.now;
 }
 
-/// Powers at the nodes of the step from state_.t to t, on the solver's interpolant, and the work
-/// over it.
+/// Computes powers at the nodes of the step from state_.t to t, on the solver's interpolant, and
+/// the work over the step.
 void Measure::begin(double t, const Interpolant& at, bool idle) {
   before_ = state_.now;
   state_.end = t;
@@ -45,8 +45,8 @@ void Measure::begin(double t, const Interpolant& at, bool idle) {
   take_end();
 }
 
-/// The work at the time from which means are taken, if that is in this step. Leaves the observer at
-/// the end of the step, where it was.
+/// Stores the work at the start of the means, if that is in this step. Leaves the observer at the
+/// end of the step.
 void Measure::take_mean(const Interpolant& at) {
   if (!(mean_from_ > state_.t && mean_from_ <= state_.end))
     return;
@@ -82,7 +82,7 @@ void Measure::add_work(double weight, const std::vector<double>& powers) {
     end_work_[k] += (state_.end - state_.t) * weight * powers[k];
 }
 
-/// The observer is there.
+/// Takes powers and energies at the end of the step, where the observer is.
 void Measure::take_end() {
   end_power_ = powers();
   take_balance();
@@ -91,7 +91,7 @@ void Measure::take_end() {
   take_turns();
 }
 
-// The power of a force on its bodies is what it does not absorb.
+// The absorbed power of a force is minus its power on the bodies.
 std::vector<Measure::Absorbed> Measure::absorbed() const {
   std::vector<Absorbed> out;
   if (state_.t <= mean_from_)
@@ -109,13 +109,13 @@ std::vector<Measure::Absorbed> Measure::absorbed() const {
   return out;
 }
 
-/// All motions and rotations where the observer is.
+/// Reads all motions and rotations at the observer's state.
 void Measure::take_turns() {
   observer_.read(state_.now.turns);
   state_.now.turns.time = state_.end;
 }
 
-/// By component; where there are several mechanisms then by load, and of each mechanism's rows.
+/// Powers by component; with several mechanisms then by load, and of each mechanism's rows.
 std::vector<double> Measure::powers() const {
   const Observation& o = observer_.observation();
   std::vector<double> out = o.powers;
@@ -127,7 +127,7 @@ std::vector<double> Measure::powers() const {
   return out;
 }
 
-/// Change of the kinetic energy of each mechanism's bodies minus the work of all loads on them.
+/// Balance of each mechanism: change of its kinetic energy minus the work of all loads on it.
 void Measure::balance_mechanisms() {
   const Observation& o = observer_.observation();
   const std::size_t loads = o.powers.size(), rows = loads + o.loads.size();
@@ -155,10 +155,10 @@ std::vector<double> Measure::work_at(double t) const {
                                             : work_inside((t - state_.t) / (state_.end - state_.t));
 }
 
-/// With t = state_.t + x h: the integral of the polynomial through the powers at the nodes and at
-/// t, where the observer is, h sum_k P_k int_0^x L_k, by Gauss's rule.
+/// Work at t = state_.t + x h: integral of the polynomial through the powers at the nodes and at t,
+/// where the observer is, h sum_k P_k int_0^x L_k, by Gauss's rule.
 std::vector<double> Measure::work_inside(double x) const {
-  // Of 5 points on [0, 1]: exact up to degree 9.
+  // Gauss rule of 5 points on [0, 1], exact up to degree 9.
   static constexpr std::array<double, 5> places = {0.046910077030668, 0.230765344947158, 0.5,
                                                    0.769234655052842, 0.953089922969332};
   static constexpr std::array<double, 5> weights = {0.118463442528095, 0.239314335249683,
@@ -166,7 +166,7 @@ std::vector<double> Measure::work_inside(double x) const {
                                                     0.118463442528095};
   std::vector<double> nodes = state_.rule.nodes;
   const auto apart = [&](double node) { return std::abs(node - x) > 1e-3; };
-  const bool own = std::all_of(nodes.begin(), nodes.end(), apart); // else next to one of them
+  const bool own = std::all_of(nodes.begin(), nodes.end(), apart); // otherwise next to a node
   if (own)
     nodes.push_back(x);
   const std::vector<double> power = own ? powers() : std::vector<double>();
@@ -193,13 +193,13 @@ double Measure::balance_error(const std::vector<double>& work) const {
   const Observation& o = observer_.observation();
   double total_work = 0.0;
   for (std::size_t k = 0; k < o.powers.size(); ++k)
-    // The fluid's kinetic energy is on the left-hand side already; parts are in their whole.
+    // The kinetic energy of the fluid is on the left side already; parts belong to their whole.
     if (o.works[k] != element::Work::fluid && o.works[k] != element::Work::part)
       total_work += work[k];
   return o.kinetic + o.kinetic_added_mass - state_.now.whole.start - total_work;
 }
 
-/// Of the scene at the end of the step, with the largest values so far.
+/// Takes the balance of the scene at the end of the step, with the largest values so far.
 void Measure::take_balance() {
   const Observation& o = observer_.observation();
   Balance& b = state_.now.whole;
@@ -228,7 +228,7 @@ void Measure::restart(const VectorX& y, const VectorX& yp, const std::optional<d
   if (!work)
     return;
   state_.work[o.powers.size() - 1] += *work; // "constraints"
-  // Of one mechanism alone: the water may have passed on a part of the impulse.
+  // Only for a single mechanism: otherwise the water may transmit a part of the impulse.
   for (std::size_t m = 0; m < state_.now.mechanisms.size(); ++m)
     state_.work[o.powers.size() + o.loads.size() + m] +=
         o.mechanism_kinetic[m] - state_.now.mechanism_kinetic[m];

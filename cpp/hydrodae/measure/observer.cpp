@@ -64,7 +64,7 @@ Observer::Observer(const Regime& system) : s_(system), ws_(system) {
   rate_ = momentum_ = memory_ = VectorX::Zero(loads);
 }
 
-/// Takes the next planned load: into the list, the power of its component, and the balance.
+/// Adds the next planned load to the list, the power of its component, and the balance.
 void Observer::add_load(const Vector6& world_load) {
   ComponentLoad& entry = out_.loads[next_load_++];
   const BodyState<double>& state = ws_.bodies[entry.body];
@@ -109,7 +109,7 @@ void Observer::observe_joints(const double* y) {
       subtract(s_.joints[s_.motions[term.motion].joint],
                y[s_.lambda(c)] * term.factor * motion_row<double>(s_, ws_, term.motion).gradient);
   }
-  for (const SwitchData& element : s_.switches) // slipping friction acts as a force
+  for (const SwitchData& element : s_.switches) // friction that slips acts as a force
     if (element.kind == SwitchData::Kind::friction && !s_.holds(element))
       out_.constraints[static_cast<std::size_t>(element.coupler)] =
           s_.signals[static_cast<std::size_t>(element.list)][static_cast<std::size_t>(element.law)];
@@ -120,8 +120,8 @@ void Observer::observe_joints(const double* y) {
   }
 }
 
-/// With redundant rows only the sum of the reactions is known: of all multipliers of all rows with
-/// the same G^T lambda, the smallest.
+/// Shares reactions among redundant rows, of which only the sum is known: the smallest multipliers
+/// of all rows with the same G^T lambda.
 void Observer::share_reactions(const double* y) {
   MatrixX G_T = MatrixX::Zero(s_.n_u, shared_.size());
   VectorX load = VectorX::Zero(s_.n_u);
@@ -147,8 +147,8 @@ void Observer::share_reactions(const double* y) {
   shared_ = minimum_norm(G_T, load);
 }
 
-/// Takes the load of a constraint into the balance of its bodies, and its power (nonzero only where
-/// a drive moves the constraint).
+/// Subtracts the load of a constraint from the balance of its bodies, and adds its power (nonzero
+/// only if a drive moves the constraint).
 void Observer::subtract(const JointData& j, const joint::Vector12& load) {
   const joint::Vector12 u = joint_velocity<double>(j, ws_.bodies);
   const auto take = [&](int body, const Vector6& own, const Vector6& velocity) {
@@ -164,7 +164,7 @@ void Observer::subtract(const JointData& j, const joint::Vector12& load) {
   take(j.B.body, load.tail<6>(), u.tail<6>());
 }
 
-/// Kinetic energies, and what the locked coordinates must carry: inertia minus all other loads.
+/// Computes kinetic energies, and the loads of locked coordinates: inertia minus all other loads.
 void Observer::observe_energy() {
   for (std::size_t i = 0; i < s_.bodies.size(); ++i) {
     const BodyData& b = s_.bodies[i];
@@ -183,7 +183,7 @@ void Observer::observe_energy() {
   }
 }
 
-/// Motion there, and zero sums.
+/// Reads the motion at (t, y, y'), and clears the sums.
 void Observer::begin(double t, const VectorX& y, const VectorX& yp) {
   unpack<double>(s_, y.data(), yp.data(), ws_.bodies);
   ws_.time = t;

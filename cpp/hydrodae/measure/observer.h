@@ -1,5 +1,5 @@
 #pragma once
-/// Everything that a run reports: motions, every force component by name, reactions, energies.
+/// Reported quantities of a run: motions, every force component by name, reactions, energies.
 
 #include <span>
 
@@ -20,24 +20,25 @@ struct ComponentLoad {
   Vector6 load = Vector6::Zero();
 };
 
-/// The state of the scene at one instant, taken apart.
+/// State of the scene at one instant, by quantities.
 struct Observation {
   std::vector<std::string> components; ///< names: weight, hydrostatic, radiation, ..., constraints
-  std::vector<element::Work> works;    ///< per component: how its power counts
-  std::vector<ComponentLoad> loads;    ///< all components but the reactions
+  std::vector<element::Work> works;    ///< part in the energy balance, per component
+  std::vector<ComponentLoad> loads;    ///< loads of all components except the reactions
   std::vector<Vector6> reactions;      ///< per joint: force and moment on B, axes of A's marker
   std::vector<Vector6> supports;       ///< per body: load of its locked coordinates on it, world
   std::vector<double> powers;          ///< per component [W]
   std::vector<std::array<double, 2>> motions; ///< per motion: coordinate and rate
   std::vector<double> constraints;            ///< per coupler: multiplier [N or N m]
-  double kinetic = 0.0;                       ///< of the bodies [J]
-  double kinetic_added_mass = 0.0;            ///< of the fluid: U . A_inf U / 2 [J]
-  std::vector<double> mechanism_kinetic;      ///< per mechanism: of its bodies [J]
-  std::vector<double> mechanism_constraints;  ///< per mechanism: power of its rows [W]
-  std::vector<double> elements;               ///< own channels of all laws, as declared
-  bool in_waves = false;                      ///< some element feels waves
-  double elevation = 0.0;                     ///< of these at the origin [m]
-  double potential = 0.0; ///< weight, hydrostatics, springs; zero in the reference pose [J]
+  double kinetic = 0.0;                       ///< kinetic energy of the bodies [J]
+  double kinetic_added_mass = 0.0;            ///< kinetic energy of the fluid, U . A_inf U / 2 [J]
+  std::vector<double> mechanism_kinetic;      ///< kinetic energy of the bodies, per mechanism [J]
+  std::vector<double> mechanism_constraints;  ///< power of the rows, per mechanism [W]
+  std::vector<double> elements;               ///< channels of all laws, as declared
+  bool in_waves = false;                      ///< true: an element reads waves
+  double elevation = 0.0;                     ///< elevation of these waves at the origin [m]
+  /// Potential energy of weight, hydrostatics, springs; zero in the reference pose [J]
+  double potential = 0.0;
 };
 
 /// Evaluates observations; owns its scratch.
@@ -45,22 +46,22 @@ class Observer {
 public:
   explicit Observer(const Regime& system);
 
-  /// Fills `observation()` from t, y, y'. No allocation after the first call.
+  /// Fills `observation()` from t, y, y'. Allocates nothing after the first call.
   const Observation& observe(double t, const VectorX& y, const VectorX& yp);
   const Observation& observation() const { return out_; }
 
-  /// Fills loads, reactions, powers and kinetic energies alone: what a balance of energy needs.
+  /// Fills only loads, reactions, powers and kinetic energies: the data of an energy balance.
   const Observation& observe_balance(double t, const VectorX& y, const VectorX& yp);
 
-  /// Fills the loads of `observation()` and their powers alone, where reactions do no work.
+  /// Fills only the loads of `observation()` and their powers, for reactions that do no work.
   void observe_powers(double t, const VectorX& y, const VectorX& yp);
   const std::vector<BodyState<double>>& bodies() const { return ws_.bodies; }
 
-  /// Angles go on from these values (of an accepted step).
+  /// Sets the turns of angles, from an accepted step.
   void follow(const Turns& turns) { ws_.turns = turns; }
-  /// Where they are at the last `observe`.
+  /// Writes the motions of the last `observe`.
   void read(Turns& turns) const { system::read_turns(s_, ws_, turns); }
-  /// Displacement of a body from its reference pose there [m; rad].
+  /// Displacement of a body from its reference pose at the last `observe` [m; rad].
   Vector6 displacement(int body, const VectorX& y) const {
     return system::displacement<double>(s_, ws_, body, y.data());
   }
@@ -90,12 +91,13 @@ private:
   Observation out_;
   std::vector<Vector6> totals_; ///< per body: inertia minus all loads, tangent axes
   VectorX rate_, momentum_, memory_;
-  std::vector<double> element_values_; ///< of one list: energies and declared channels, or loads
-  const element::Elements* in_waves_ = nullptr; ///< that show the elevation
+  /// Values of one list: energies and declared channels, or loads
+  std::vector<double> element_values_;
+  const element::Elements* in_waves_ = nullptr; ///< law that shows the elevation
   std::size_t next_load_ = 0;
-  double* own_ = nullptr;             ///< next of Observation::elements
-  std::vector<int> redundant_joints_; ///< joints with rows that follow from others
-  VectorX shared_;                    ///< multipliers of all rows, where some are redundant
+  double* own_ = nullptr;             ///< next entry of Observation::elements
+  std::vector<int> redundant_joints_; ///< joints with redundant rows
+  VectorX shared_;                    ///< multipliers of all rows, if some are redundant
 };
 
 } // namespace hydrodae::measure

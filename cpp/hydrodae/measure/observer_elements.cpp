@@ -1,4 +1,4 @@
-/// Of the observer: loads, stored energy and own channels of the laws.
+/// Part of the observer: loads, stored energy and channels of the laws.
 
 #include "hydrodae/measure/observer.h"
 #include "hydrodae/system/elements.h"
@@ -10,7 +10,7 @@ using namespace system;
 
 namespace {
 
-/// Load by which dry friction that sticks holds its joint; its law gives zero then [N or N m].
+/// Load of dry friction that sticks [N or N m]; its law returns zero then.
 double holding_load(const Regime& s, const ElementList& list, std::size_t law, const double* y) {
   for (const SwitchData& friction : s.switches)
     if (s.mode(friction) == SwitchData::State::stick &&
@@ -22,7 +22,7 @@ double holding_load(const Regime& s, const ElementList& list, std::size_t law, c
 
 } // namespace
 
-/// The loads of a list on its bodies, in the order in which the constructor planned them.
+/// Adds the loads of a list on its bodies, in the order planned by the constructor.
 void Observer::observe_ports(const ElementList& list, const ElementScratch<double>& scratch) {
   const element::Shape& shape = list.laws->shape;
   const double* load = scratch.out.data();
@@ -45,7 +45,7 @@ void Observer::observe_ports(const ElementList& list, const ElementScratch<doubl
         if (body < 0 || !is_first_of_its_body(port, i))
           continue;
         const BodyState<double>& b = ws_.bodies[static_cast<std::size_t>(body)];
-        Vector6 sum = Vector6::Zero(); // of all its points on the body
+        Vector6 sum = Vector6::Zero(); // sum over all its points on the body
         for (std::size_t k = i; k < port.points.size(); ++k)
           if (port.points[k].body == body)
             sum += load_at<double>(b, port.points[k], load + 3 * k);
@@ -68,7 +68,7 @@ void Observer::observe_ports(const ElementList& list, const ElementScratch<doubl
   }
 }
 
-/// The loads of a law along several motions, summed over each body.
+/// Adds the loads of a law along several motions, summed for each body.
 void Observer::observe_motions(const PortData& port, const double* load,
                                const joint::Vec12<double>* rows) {
   for (const int body : port.bodies) {
@@ -86,7 +86,7 @@ void Observer::observe_motions(const PortData& port, const double* load,
   }
 }
 
-/// -load . v; a delayed law sees other rates than those that it works on.
+/// Absorbed power -load . v; a delayed law reads other rates than those of its work.
 double Observer::power_absorbed(const element::Shape& shape, const PortData& port, const double* in,
                                 const double* load, const joint::Vec12<double>* rows) const {
   if (element::is_along(shape.port))
@@ -119,7 +119,7 @@ void Observer::observe(const ElementList& list, const double* y) {
   const joint::Vec12<double>* rows = scratch.rows.data();
   for (std::size_t law = 0; law < list.ports.size(); ++law) {
     const PortData& port = list.ports[law];
-    if (port.delay < 0) // a delayed spring gives back another energy than it took
+    if (port.delay < 0) // a delayed spring returns another energy than it takes
       out_.potential += *energy;
     ++energy;
     if (element::is_along(laws.shape.port)) {

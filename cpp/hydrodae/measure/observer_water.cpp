@@ -1,4 +1,4 @@
-/// Of the observer: added mass and radiation.
+/// Part of the observer: added mass and radiation.
 
 #include <algorithm>
 
@@ -12,7 +12,7 @@ namespace hydrodae::measure {
 
 using namespace system;
 
-/// What the radiation takes on all coordinates, locked ones too; needs U and U'.
+/// Radiation loads on all coordinates, including locked ones; needs U and U'.
 void Observer::observe_memory(const HydroData& h, const double* y) {
   const double* z = weighted_states<double>(h, ws_, y + h.z0);
   memory_.setZero();
@@ -37,7 +37,7 @@ void Observer::observe_memory(const HydroData& h, const double* y) {
   }
 }
 
-/// A table that ends before the pose that its body has taken.
+/// Throws for a body that has left the poses of its table.
 [[noreturn]] void refuse_pose(double t, const System& s, const water::PoseTable& table,
                               double pose) {
   const std::string& body =
@@ -59,9 +59,9 @@ void Observer::observe_memory(const HydroData& h, const double* y) {
        ""});
 }
 
-/// A(s) U and d/dt (A(s) U) of bodies with tables, for all six coordinates of each.
+/// Momentum A(s) U and d/dt (A(s) U) of bodies with tables, for all six coordinates of each.
 void Observer::observe_tables(const HydroData& h) {
-  constexpr double slack = 1e-9; ///< of the table's range
+  constexpr double slack = 1e-9; ///< tolerance, as part of the table's range
   for (std::size_t k = 0; k < h.tables.size(); ++k) {
     const water::PoseTable& table = h.tables[k];
     const HydroBody& hb = h.bodies[static_cast<std::size_t>(table.hydro_body)];

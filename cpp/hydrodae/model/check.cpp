@@ -10,7 +10,7 @@
 namespace hydrodae::model {
 namespace {
 
-/// Names become parts of key paths, of channel paths and of coordinate labels.
+/// Checks a name, which becomes part of key paths, channel paths and coordinate labels.
 void check_name(const std::string& name, const std::string& kind) {
   const auto fits = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -31,7 +31,7 @@ void check_names(const std::vector<std::string>& names, const std::string& kind)
   }
 }
 
-/// What holds at times only is reported among the constraints, under its own name.
+/// Checks names of stops and friction, which are reported among the constraints.
 void check_reaction_names(const Scene& scene) {
   const std::vector<std::string> taken = names_of(scene.constraints);
   const auto check_free = [&](const std::string& kind, const std::string& name) {
@@ -90,7 +90,7 @@ bool coincide(const Vector3& a, const Vector3& b) {
 void check(const Scene& scene) {
   if (scene.bodies.empty())
     throw ModelError("body", "the case has no [[body]]");
-  std::vector<std::string> bodies; // of the case
+  std::vector<std::string> bodies; // bodies of the case
   for (const Body& body : scene.bodies)
     if (!body.part)
       bodies.push_back(body.name);

@@ -5,7 +5,8 @@
 
 namespace hydrodae::model {
 
-inline constexpr std::string_view ground = "ground"; ///< the fixed world, as an end of a joint
+/// Name of the fixed world as an end of a joint
+inline constexpr std::string_view ground = "ground";
 
 void check_body(const Scene& scene, const Body& body);
 void check_joint(const Scene& scene, const Joint& joint);
@@ -14,7 +15,7 @@ void check_marker(const Scene& scene, const Marker& marker);
 void check_forces(const Scene& scene);
 void check_morison(const Scene& scene);
 void check_chambers(const Scene& scene);
-/// Refuses what models an effect of the water on a body a second time (claims.h).
+/// Refuses a second model of one effect of the water on a body (claims.h).
 void check_claims(const Scene& scene);
 void check_controller(const Scene& scene, const Controller& controller);
 void check_solver(const Scene& scene);
@@ -24,7 +25,7 @@ void check_gauge(const Scene& scene, const sea::Gauge& gauge); ///< behind `chec
 void check_pose_table(const Scene& scene, const PoseTable& table);
 void check_database(const Scene& scene); ///< only called when the scene has one
 
-/// The entry that is being checked: [[kind]] with this name.
+/// Entry under check: [[kind]] with this name.
 struct Entry {
   std::string kind;
   std::string name;
@@ -33,10 +34,10 @@ struct Entry {
 /// Throws ModelError with the key path "<kind>.<name>.<key>" (without a key: "<kind>.<name>").
 [[noreturn]] void refuse(const Entry& entry, const std::string& key, const std::string& message);
 
-/// What joints, forces and markers can name: bodies and attachments.
+/// Names that joints, forces and markers may use: bodies and attachments.
 std::vector<std::string> names_of_bodies(const Scene& scene);
 
-/// Refuses `key = name` of the entry unless the name is among `names`, which are of this sort.
+/// Refuses `key = name` of the entry unless `names` contains the name; `sort`: their kind.
 void check_reference(const Entry& entry, const std::string& key, const std::string& name,
                      const std::vector<std::string>& names, const std::string& sort);
 
@@ -50,12 +51,13 @@ void check_joint_coordinate(const Scene& scene, const Entry& entry, const std::s
                             const std::string& joint, const std::string& coordinate_key,
                             const std::optional<std::string>& coordinate);
 
-/// The joint has the coordinate along which the entry acts; `coordinate` says which of several.
-/// @returns whether it is an angle
+/// Refuses a joint without the coordinate that the entry acts along; `coordinate` selects one of
+/// several.
+/// @returns whether the coordinate is an angle
 bool check_motion(const Scene& scene, const Entry& entry, const std::string& name,
                   const std::optional<std::string>& coordinate);
 
-/// Refuses what is wrong with the values of an entry by itself, or of a run of this length.
+/// Refuses faults in the values of an entry, alone or for a run of this length.
 template <class Shared, class... T>
 void check_own(const Entry& entry, const OneOf<Shared, T...>& any, double end_time = 0.0) {
   any.visit([&](const auto& one) {
@@ -69,7 +71,7 @@ void check_own(const Entry& entry, const OneOf<Shared, T...>& any, double end_ti
   });
 }
 
-/// Refuses bounds in m of an angle, and in deg of a displacement.
+/// Refuses bounds in m for an angle, and in deg for a displacement.
 template <class T>
 void check_bounds(const Entry& entry, [[maybe_unused]] const T& item, [[maybe_unused]] bool angle) {
   if constexpr (requires { item.lower_angle; }) {
@@ -82,7 +84,7 @@ void check_bounds(const Entry& entry, [[maybe_unused]] const T& item, [[maybe_un
   }
 }
 
-/// Are two points of a scene the same, up to rounding [m]?
+/// Returns whether two points of a scene coincide, up to rounding [m].
 bool coincide(const Vector3& a, const Vector3& b);
 
 template <class T> void append_names(const std::vector<T>& items, std::vector<std::string>& names) {
@@ -96,7 +98,7 @@ template <class T> std::vector<std::string> names_of(const std::vector<T>& items
   return names;
 }
 
-/// The item with this name, or null.
+/// Item with this name, or null.
 template <class T> const T* find_named(const std::vector<T>& items, const std::string& name) {
   for (const T& item : items)
     if (name_of_entry(item) == name)

@@ -17,9 +17,9 @@ Vector3 principal_moments(const Matrix3& tensor) {
   return Eigen::SelfAdjointEigenSolver<Matrix3>(tensor).eigenvalues();
 }
 
-/// A rigid body turning freely, or one whose moments are all given: no principal moment is
-/// negative, and I1 + I2 >= I3 (moments of a mass distribution). Moments of zero are those of
-/// points and rods; whether the constraints leave such a direction to itself is seen at the start.
+/// Checks the tensor of a body that turns freely or has all moments given: no principal moment is
+/// negative, and I1 + I2 >= I3 (moments of a mass distribution). Zero moments are those of points
+/// and rods; the start checks whether constraints hold such a direction.
 void check_tensor(const Body& body, const Matrix3& tensor) {
   const Vector3 moments = principal_moments(tensor);
   const std::string text = "principal moments " + number_text(moments[0]) + ", " +
@@ -51,8 +51,8 @@ void check_inertia(const Body& body, const std::array<bool, 6>& free) {
     check_tensor(body, tensor);
 }
 
-/// A locked coordinate keeps its start for ever, so it has no velocity; a body with one free
-/// rotation turns about that axis only.
+/// Checks the initial velocity: zero along locked coordinates. A body with one free rotation turns
+/// about that axis only.
 void check_initial(const Body& body, const std::array<bool, 6>& free) {
   const bool turns = free[3] || free[4] || free[5];
   for (std::size_t i = 0; i < 3; ++i) {
@@ -84,7 +84,7 @@ void check_volume(const Scene& scene, const Body& body) {
            "a volume under water has its centre below z = 0, this one at " + number_text(z) + " m");
 }
 
-/// What a mesh needs.
+/// Checks the requirements of a mesh.
 void check_mesh(const Scene& scene, const Body& body) {
   const bool statics = body.hydrostatics_by_mesh(), waves = body.waves_by_mesh();
   if (!body.mesh && !body.mesh_origin.isZero(0.0))

@@ -10,10 +10,10 @@ namespace hydrodae::model {
 namespace {
 
 /// Vapour pressure of water at 17.5 C [Pa]: below it the sea boils. Values in bar, kPa and hPa are
-/// below it too.
+/// below it, too.
 constexpr double boils = 2000.0;
 
-/// Largest part by which the stiffness of a mode may differ from rho g times the area of its
+/// Largest relative difference between the stiffness of a mode and rho g times the area of its
 /// piston.
 constexpr double same_area = 0.02;
 
@@ -51,7 +51,7 @@ void check_chamber(const Scene& scene, const air::Chamber& chamber) {
                in_quotes(chamber.name));
 }
 
-/// The water's stiffness of a mode that is a piston is rho g S, with nothing of the air in it.
+/// Checks the water stiffness of a piston mode, rho g S, which must exclude the air.
 void check_stiffness(const Scene& scene, const Entry& entry, const air::Piston& piston) {
   const Mode& mode = *find_named(scene.modes, *piston.mode);
   const Body* body = find_named(scene.bodies, mode.body);

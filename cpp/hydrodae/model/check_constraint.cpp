@@ -79,7 +79,7 @@ void check_term(const Scene& scene, const Entry& entry, const Condition::Term& t
     check_body_coordinate(scene, entry, *term.body, term.coordinate);
 }
 
-/// Two terms on one motion of a joint.
+/// Refuses two terms on one motion of a joint.
 void check_apart(const Scene& scene, const Entry& entry, const Condition& condition) {
   if (condition.terms.size() < 2)
     return;

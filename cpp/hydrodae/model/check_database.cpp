@@ -32,7 +32,7 @@ void check_reference_point(const Body& body, const hydro::DatabaseBody& entry) {
 /// potential. Buoyancy that turns with the body gives roll and pitch moments by yaw.
 void check_still_water(const hydro::Database& database, const Body& body,
                        const hydro::Hydrostatics& h) {
-  constexpr double noise = 1e-3; // of tables, as in the symmetry of headings (docs/axes.md)
+  constexpr double noise = 1e-3; // noise of tables, as in the symmetry of headings (docs/axes.md)
   const Matrix6& K = h.stiffness;
   const double weight = database.rho * database.gravity, size = std::cbrt(h.displaced_volume),
                rise = std::max(std::abs(K(2, 2)), weight * size * size),
@@ -71,7 +71,7 @@ void check_wet_body(const hydro::Database& database, const Body& body, const std
     check_still_water(database, body, *entry->hydrostatics);
 }
 
-/// What part of int |K| of a coordinate on itself lies beyond `length` [-].
+/// Part of int |K| of a coordinate on itself beyond `length` [-].
 double part_beyond(const hydro::RadiationKernel& kernel, const std::string& label, double length) {
   const auto place = [&](const std::vector<std::string>& labels) {
     return std::find(labels.begin(), labels.end(), label) - labels.begin();
@@ -81,14 +81,14 @@ double part_beyond(const hydro::RadiationKernel& kernel, const std::string& labe
   for (std::size_t k = 0; k < kernel.values.size(); ++k) {
     const double time = static_cast<double>(k) * kernel.step;
     const double size = std::abs(kernel.values[k](row, column)) * (k == 0 ? 0.5 : 1.0);
-    all += size; // trapezoids
+    all += size; // trapezoidal rule
     if (time >= length - 1e-9 * kernel.step)
       beyond += time > length + 1e-9 * kernel.step ? size : 0.5 * size;
   }
   return all > 0.0 ? beyond / all : 0.0;
 }
 
-/// A memory that is cut too short is that of another device.
+/// Checks the length of the memory: a memory cut too short is that of another device.
 void check_memory_length(const Scene& scene, double length) {
   constexpr double allowed = 0.1;
   const hydro::RadiationKernel& kernel = *scene.database->kernel;
@@ -104,7 +104,7 @@ void check_memory_length(const Scene& scene, double length) {
   }
 }
 
-/// The kernel must be there, cover what moves, and be as long as the case asks.
+/// Checks that the kernel exists, covers the moving coordinates, and is as long as the case asks.
 void check_kernel(const Scene& scene) {
   const HydroOptions& hydro = *scene.hydro;
   const hydro::Database& database = *scene.database;

@@ -5,8 +5,7 @@
 namespace hydrodae::model {
 namespace {
 
-/// The ends of a line may both be on the ground, or on one body.
-/// Both ends of a line may be on the ground or on one body: its weight and its tension count.
+/// Checks a line. Both ends may be on the ground or on one body: its weight and its tension count.
 template <class Line> void check_line(const Scene& scene, const Entry& entry, const Line& line) {
   std::vector<std::string> names = names_of_bodies(scene);
   names.emplace_back(ground);
@@ -14,7 +13,7 @@ template <class Line> void check_line(const Scene& scene, const Entry& entry, co
   check_reference(entry, "body_b", line.body_b, names, "body");
 }
 
-/// What a force refers to is read off its members: `body` names a body, `joint` a joint, `body_a`
+/// Checks the references of a force, by its members: `body` names a body, `joint` a joint, `body_a`
 /// and `body_b` the two ends.
 template <class Force> void check_force(const Scene& scene, const Force& force) {
   const Entry entry{"force", force.name};

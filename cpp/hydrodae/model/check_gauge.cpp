@@ -7,7 +7,7 @@
 namespace hydrodae::model {
 namespace {
 
-/// Of a record nothing is known behind its end.
+/// Checks a forecast; a record has no data after its end.
 void check_forecast(const Scene& scene, const Entry& entry, const sea::Gauge& gauge) {
   if (gauge.ahead.empty())
     return;
@@ -34,7 +34,7 @@ void check_gauge(const Scene& scene, const sea::Gauge& gauge) {
     refuse(entry, "", "there is no [[wave]] whose elevation it could measure");
   if (!gauge.point.empty() && gauge.point.size() != 2)
     refuse(entry, "point", "expected 'point' = [x, y], its place [m]");
-  constexpr double far = 1e7; // m; an error of 1e-9 in the phase of waves of 60 m, and ever larger
+  constexpr double far = 1e7; // distance [m] at which waves of 60 m have a phase error of 1e-9
   for (const double x : gauge.point)
     if (std::abs(x) > far)
       refuse(entry, "point",

@@ -23,7 +23,7 @@ void check_axes(const Joint& joint, const joint::JointType& type) {
     refuse(joint, "axis_x", "axis_x must have a length and a direction other than the axis");
 }
 
-/// Keys that belong to the rows `distance`, `screw` and `across`.
+/// Checks the keys of the rows `distance`, `screw` and `across`.
 void check_parameters(const Joint& joint, const joint::JointType& type) {
   const std::string kind = "a " + joint.type + " joint ";
   if (type.has_two_points()) {
@@ -46,7 +46,7 @@ void check_parameters(const Joint& joint, const joint::JointType& type) {
     refuse(joint, "path", "the path " + *flaw);
 }
 
-/// A body that is a point has no axes: nothing can hold its rotation, and it carries no axis.
+/// Checks joints of point bodies: a point has no axes, so that no row can hold its rotation.
 void check_points(const Scene& scene, const Joint& joint, const joint::JointType& type) {
   const auto is_point = [&](const std::string& name) {
     const Body* body = find_named(scene.bodies, name);

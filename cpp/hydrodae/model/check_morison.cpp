@@ -6,7 +6,7 @@ namespace {
 
 using water::Morison;
 
-/// Keys that belong to the other shape of element.
+/// Refuses keys of the other shape of element.
 void refuse_keys(const Scene& scene, const Entry& entry, const std::string& shape,
                  const std::vector<std::string>& keys) {
   for (const std::string& key : keys)

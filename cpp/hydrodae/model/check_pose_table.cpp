@@ -30,7 +30,7 @@ void check_values(const PoseTable& table) {
                " values; give one for each");
 }
 
-/// Of what the main database says of this body together with others nothing may be left.
+/// Refuses data of the main database that couple this body with others.
 void check_alone(const Scene& scene, const PoseTable& table, const Body& body) {
   for (const Body& other : scene.bodies)
     if (&other != &body && other.hydro &&
@@ -56,7 +56,7 @@ void check_database_at(const Scene& scene, const PoseTable& table, std::size_t k
   try {
     Scene there = scene_at_pose(scene, table, k);
     for (Body& body : there.bodies)
-      body.hydrostatics = "mesh"; // those of the main database count
+      body.hydrostatics = "mesh"; // hydrostatics of the main database are used
     check_database(there);
   } catch (const ModelError& error) {
     refuse(table, "databases", error.what());

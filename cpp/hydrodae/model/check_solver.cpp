@@ -13,10 +13,10 @@ namespace {
   throw ModelError("solver." + key, message);
 }
 
-/// A run of more steps or samples would never end, or never fit on a disk.
+/// Limits of steps and samples: more would never end, or never fit on a disk.
 constexpr double most_steps = 1e10, most_samples = 1e9;
 
-/// `step` may divide the run into `most` parts at most.
+/// Checks that `step` divides the run into at most `most` parts.
 void check_count(const Scene& scene, const std::string& key, double step, double most,
                  const std::string& parts) {
   const double end = scene.solver.end_time;
@@ -24,7 +24,7 @@ void check_count(const Scene& scene, const std::string& key, double step, double
     return;
   const std::string step_text = key + " = " + number_text(step) + " s",
                     end_text = "solver.end_time = " + number_text(end) + " s";
-  // Where only one of the two is written down, that one is to blame.
+  // The message names the key that the case contains.
   const bool given = scene.places.contains(key);
   throw ModelError(given ? key : "solver.end_time",
                    (given ? step_text + " divides the run to " + end_text
@@ -43,11 +43,11 @@ void check_counts(const Scene& scene) {
   if (o.baumgarte_time > 0.0)
     check_count(scene, "solver.baumgarte_time", o.baumgarte_time, most_steps, "times");
   for (const element::PtoLinear& pto : std::get<std::vector<element::PtoLinear>>(scene.forces))
-    if (pto.delay > 0.0) // no step is longer than it
+    if (pto.delay > 0.0) // steps are no longer than the delay
       check_count(scene, "force." + pto.name + ".delay", pto.delay, most_steps, "steps");
 }
 
-/// "5 or 8", "1, 3, .. 19".
+/// Text "5 or 8", "1, 3, .. 19".
 std::string in_words(const std::vector<int>& orders) {
   const std::string first = std::to_string(orders[0]), second = std::to_string(orders[1]);
   return orders.size() == 2 ? first + " or " + second
@@ -116,7 +116,7 @@ void check_solver(const Scene& scene) {
   if (o.max_order != 5 && !(method && method->limits_order))
     refuse_solver("max_order", "belongs to ida; " +
                                    (method ? o.method + " takes solver.order" : "name the method"));
-  // The default asks for nothing.
+  // The default is not a request.
   if (o.spectral_radius != SolverOptions{}.spectral_radius && !(method && method->takes_radius))
     refuse_solver("spectral_radius",
                   "belongs to generalized_alpha; " +

@@ -10,7 +10,7 @@ namespace {
 
 using enum Effect;
 
-/// The pieces of an element, and how many of their centres are inside the mesh of its body.
+/// Number of pieces of an element, and of those with the centre inside the mesh of its body.
 struct Pieces {
   int count = 0, inside = 0;
   bool all_inside() const { return inside == count; }
@@ -28,7 +28,8 @@ Pieces pieces_of(const Body& body, const water::Morison& m) {
   return out;
 }
 
-/// Database, mesh and volume of a body share its effects: what the mesh has, the database leaves.
+/// Claims of database, mesh and volume of a body: effects of the mesh are not taken from the
+/// database.
 void claim_body(const Scene& scene, const Body& body, std::vector<Claim>& out) {
   const std::string key = "body." + body.name + ".";
   if (body.hydro) {
@@ -59,7 +60,7 @@ void claim_body(const Scene& scene, const Body& body, std::vector<Claim>& out) {
     out.push_back({body.name, {buoyancy}, key + "volume", "its 'volume'", "leave out 'volume'"});
 }
 
-/// A table over poses takes the place of the main database.
+/// Claims of a pose table, which replaces the main database.
 void claim_table(const Scene& scene, const PoseTable& table, std::vector<Claim>& out) {
   std::vector<Effect> effects = {diffraction, added_mass, radiation};
   if (!find_named(scene.bodies, table.body)->waves_by_mesh())

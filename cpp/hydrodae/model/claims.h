@@ -1,6 +1,6 @@
 #pragma once
-/// Which element models which effect of the water on which body. Drag, moorings and other forces
-/// add up; these effects do not: two models of one of them count it twice.
+/// Claims: the element that models an effect of the water on a body. Drag, moorings and other
+/// forces add up; for these effects two models would count twice.
 
 #include <string>
 #include <string_view>
@@ -22,21 +22,21 @@ enum class Effect {
 };
 std::string_view name_of(Effect effect); ///< as a message names it
 
-/// An element models these effects on a body.
+/// Claim of an element to model these effects on a body.
 struct Claim {
   std::string body;
   std::vector<Effect> effects;
   std::string key;     ///< path of the key: "body.float.volume"
-  std::string by;      ///< in a message: "its 'volume'"
-  std::string instead; ///< what to write if another element models them already
-  bool part = false;   ///< of the body only: such claims add up
+  std::string by;      ///< subject of a message: "its 'volume'"
+  std::string instead; ///< advice if another element already models them
+  bool part = false;   ///< true: for part of the body only; such claims add up
 };
 
-/// All claims of a scene whose meshes are read. Of two on one effect the later one is refused.
+/// Claims of a scene with loaded meshes. Of two claims on one effect the later one is refused.
 std::vector<Claim> claims(const Scene& scene);
 
-/// Does the whole element lie inside a mesh that has the load of the undisturbed waves? Then its
-/// inertia force is rho V C_a (a_f - a_b).
+/// Returns whether the whole element lies inside a mesh with the load of the undisturbed waves. Its
+/// inertia force is then rho V C_a (a_f - a_b).
 bool leaves_waves_to_mesh(const Body& body, const water::Morison& element);
 
 } // namespace hydrodae::model

@@ -1,5 +1,5 @@
 #pragma once
-/// What a constraint asks of coordinates of joints or bodies.
+/// Condition of a constraint on coordinates of joints or bodies.
 
 #include <cmath>
 #include <functional>
@@ -12,14 +12,14 @@
 
 namespace hydrodae::model {
 
-/// Sum of factor * s over the terms = f(t), or its rate, or what it is at the start; or s of one
-/// term within bounds, with impacts.
+/// Condition: the sum of factor * s over the terms equals f(t), or its rate does, or it keeps its
+/// start; or s of one term stays within bounds, with impacts.
 struct Condition {
   struct Term {
-    std::optional<std::string> joint, body; ///< one of them
-    std::optional<std::string> coordinate;  ///< of a joint by default its first
+    std::optional<std::string> joint, body; ///< exactly one is given
+    std::optional<std::string> coordinate;  ///< coordinate; default: the first of a joint
     double factor = 1.0;
-    std::string joint_key = "joint", coordinate_key = "coordinate"; ///< of the case file
+    std::string joint_key = "joint", coordinate_key = "coordinate"; ///< keys in the case file
   };
   struct Bounds {
     double lower = -INFINITY, upper = INFINITY; ///< [m] or [rad]
@@ -33,15 +33,15 @@ struct Condition {
   std::optional<Bounds> bounds;
 };
 
-/// What every table [[constraint]] has. A type is a struct that derives from this one, with
+/// Members of every table [[constraint]]. A type is a struct that derives from this one, with
 ///
 ///   type, doc, fields()    as every typed table (core/one_of.h)
-///   condition()            what it asks
-///   text(motion)           that in words; motion(term) names a coordinate: "angle of hinge"
-///   fault()                optional: what is wrong with its values
+///   condition()            its condition
+///   text(motion)           description; motion(term) names a coordinate: "angle of hinge"
+///   fault()                optional: fault in its values
 ///
-/// and one entry in the list of model/constraint.h. One with `drive` or with bounds in m or deg
-/// (`lower_angle`) has them checked.
+/// and one entry in the list of model/constraint.h. Types with `drive` or with bounds in m or deg
+/// (`lower_angle`) have these checked.
 struct Conditional {
   static constexpr std::string_view list_doc = "A condition on coordinates of joints or bodies.";
   std::string name;

@@ -4,7 +4,7 @@
 
 namespace hydrodae::model {
 
-/// s_b - s_b(0) = ratio (s - s(0)): gears, racks, belts.
+/// Coupled coordinates, s_b - s_b(0) = ratio (s - s(0)): gears, racks, belts.
 struct Coupler : Conditional {
   static constexpr std::string_view type = "coupler";
   static constexpr std::string_view doc =

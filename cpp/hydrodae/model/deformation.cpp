@@ -26,7 +26,7 @@ Body make_mode(const Scene& scene, std::size_t k) {
   return body;
 }
 
-/// Does an attachment stay in the plane of its body?
+/// Returns whether an attachment stays in the plane of its body.
 bool is_planar(const Body& carrier, const Attachment& place) {
   const auto within = [](const Vector3& phi) { return phi[1] == 0.0; };
   const auto about_y = [](const Vector3& psi) { return psi[0] == 0.0 && psi[2] == 0.0; };
@@ -46,7 +46,7 @@ Body make_attachment(const Scene& scene, std::size_t k) {
   return body;
 }
 
-/// One vector for each mode of the body.
+/// Checks for one vector for each mode of the body.
 void check_shape(const Scene& scene, const Attachment& place, const std::string& key,
                  const std::vector<Vector3>& vectors) {
   const std::size_t modes = modes_of(scene, place.body).size();
@@ -57,7 +57,7 @@ void check_shape(const Scene& scene, const Attachment& place, const std::string&
                (modes == 1 ? " mode" : " modes") + ": expected one vector for each mode");
 }
 
-/// Does a joint hold a body or one of its attachments? A constraint may.
+/// Returns whether a joint, or possibly a constraint, holds a body or one of its attachments.
 bool is_held(const Scene& scene, const Body& body) {
   const auto joins = [&](const std::string& name) {
     return std::any_of(scene.joints.begin(), scene.joints.end(),
@@ -68,7 +68,7 @@ bool is_held(const Scene& scene, const Body& body) {
                      [&](const Attachment& a) { return a.body == body.name && joins(a.name); });
 }
 
-/// Mass that couples a shape with a motion is not in the equations.
+/// Refuses mass that couples a shape with a rigid motion: it is not in the equations.
 void check_participation(const Scene& scene) {
   for (const Mode& mode : scene.modes)
     for (std::size_t c = 0; c < 3; ++c)

@@ -3,7 +3,7 @@
 
 namespace hydrodae::model {
 
-/// s = f(t)  (level position),  s' = f(t)  (level velocity)
+/// Driven coordinate, s = f(t) (level position) or s' = f(t) (level velocity).
 struct DrivenCoordinate : Conditional {
   static constexpr std::string_view type = "coordinate";
   static constexpr std::string_view doc =

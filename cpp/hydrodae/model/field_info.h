@@ -1,5 +1,5 @@
 #pragma once
-/// A `Field<T>` without its T.
+/// Description of a `Field<T>` without its type T.
 
 #include "hydrodae/model/tables.h"
 
@@ -18,8 +18,8 @@ inline ValueKind kind_of(const Matrix6&) { return ValueKind::matrix6; }
 template <class V> ValueKind kind_of(const std::optional<V>&) { return kind_of(V{}); }
 template <class V> ValueKind kind_of(const ValueOrWord<V>& given) { return kind_of(given.value); }
 
-/// A value that a struct has of itself as TOML, in the unit of the file; "" for what stands for
-/// "not given": nothing, an empty list, a number out of its range.
+/// Default value of a struct as TOML, in the unit of the file; "" if it stands for "not given":
+/// nothing, an empty list, a number out of its range.
 std::string value_text(const FieldInfo& field, double value);
 std::string value_text(const FieldInfo& field, int value);
 std::string value_text(const FieldInfo& field, bool value);

@@ -7,7 +7,8 @@ namespace hydrodae::model {
 
 namespace {
 
-constexpr std::size_t label_at = 65; ///< in a line, behind the digest and a space
+/// Column of the label in a line, after the digest and a space
+constexpr std::size_t label_at = 65;
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> out;
@@ -17,7 +18,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return out;
 }
 
-/// The first line of `lines` that `others` lacks; empty: none.
+/// First line of `lines` that is missing in `others`; empty: none.
 std::string first_missing(const std::vector<std::string>& lines,
                           const std::vector<std::string>& others) {
   const auto found = std::find_if(lines.begin(), lines.end(), [&](const std::string& line) {

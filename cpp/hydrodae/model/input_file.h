@@ -4,22 +4,22 @@
 
 namespace hydrodae::model {
 
-/// Something outside the text of a case whose content the results depend on: a file that the case
-/// reads, a library of laws, or a Python function.
+/// External content that the results depend on: a file that the case reads, a library of laws, or a
+/// Python function.
 struct InputFile {
-  std::string key;    ///< of the case: "wave.sea.file"; "library", "forces.NAME" for what a caller
-                      ///< gives
-  std::string name;   ///< path as the case has it
-  std::string path;   ///< path as it is opened; "" for a function
-  std::string sha256; ///< of the content
+  /// Key of the case: "wave.sea.file"; for content from the caller "library", "forces.NAME"
+  std::string key;
+  std::string name;   ///< path as in the case
+  std::string path;   ///< path that is opened; "" for a function
+  std::string sha256; ///< digest of the content
 };
 
-/// The files with their digests, a line "SHA256 KEY = NAME" each: results, checkpoints, states and
-/// journals of sweeps keep this text.
+/// Files with their digests, one line "SHA256 KEY = NAME" each. Results, checkpoints, states and
+/// sweep journals store this text.
 std::string text_of_files(const std::vector<InputFile>& files);
 
-/// The first difference between two such texts in words, such as "wave.sea.file = sea.csv has
-/// changed since"; empty: none.
+/// First difference between two such texts, such as "wave.sea.file = sea.csv has changed since";
+/// empty: none.
 std::string changed_file(const std::string& before, const std::string& now);
 
 } // namespace hydrodae::model

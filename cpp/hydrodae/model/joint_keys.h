@@ -1,6 +1,5 @@
 #pragma once
-/// Which keys a [[joint]] has by its type: they follow from the rows and motions of the joint
-/// table.
+/// Keys of a [[joint]] by its type, from the rows and motions of the joint table.
 
 #include <string>
 #include <vector>
@@ -10,9 +9,9 @@
 namespace hydrodae::model {
 
 struct JointKeys {
-  std::vector<std::string> own;     ///< all that it may have
-  std::vector<std::string> needed;  ///< beside what every joint must have
-  std::vector<std::string> initial; ///< of its table `initial`
+  std::vector<std::string> own;     ///< all keys that it may have
+  std::vector<std::string> needed;  ///< required keys, besides those of every joint
+  std::vector<std::string> initial; ///< keys of its table `initial`
 };
 JointKeys joint_keys(const joint::JointType& type);
 

@@ -15,7 +15,7 @@ Matrix3 inertia_tensor(const Body& body) {
     const Matrix3 tensor = R * body.inertia.value.asDiagonal() * R.transpose();
     return 0.5 * (tensor + tensor.transpose());
   }
-  const Vector3 &d = body.inertia.value, &o = body.products_of_inertia; // Ixy, Iyz, Izx
+  const Vector3 &d = body.inertia.value, &o = body.products_of_inertia; // products Ixy, Iyz, Izx
   Matrix3 tensor;
   tensor << d[0], o[0], o[2], o[0], d[1], o[1], o[2], o[1], d[2];
   return tensor;
@@ -23,7 +23,8 @@ Matrix3 inertia_tensor(const Body& body) {
 
 namespace {
 
-/// Displaced in the reference pose [m3], by what gives the body its buoyancy; nothing if unknown.
+/// Displaced volume in the reference pose [m3], from the source of the buoyancy; nothing if
+/// unknown.
 std::optional<double> displaced_volume(const Scene& scene, const Body& body) {
   if (body.hull && body.hydrostatics_by_mesh())
     return hull::floating_in_reference_pose(*body.hull, body.center_of_gravity).volume;
@@ -36,7 +37,7 @@ std::optional<double> displaced_volume(const Scene& scene, const Body& body) {
   return {};
 }
 
-/// m = rho V.
+/// Sets the mass m = rho V.
 void fill_in_mass(const Scene& scene, Body& body) {
   if (body.mass.word.empty())
     return;
@@ -77,7 +78,7 @@ void fill_in_inertia(Body& body) {
   if (body.principal_axes || !body.products_of_inertia.isZero(0.0))
     refuse(entry, body.principal_axes ? "principal_axes_deg" : "products_of_inertia",
            "inertia = \"mesh\" has its own products of inertia; leave this out");
-  // J = m / V (tr S - S), S the integral of x x^T over the solid
+  // Inertia J = m / V (tr S - S), with S the integral of x x^T over the solid.
   const Matrix3& S = body.hull->spread;
   const Matrix3 J = body.mass.value / body.hull->volume * (S.trace() * Matrix3::Identity() - S);
   body.inertia.value = J.diagonal();

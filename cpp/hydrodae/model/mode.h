@@ -23,12 +23,12 @@ struct ModeInitial {
   }
 };
 
-/// Table [[mode]]: a shape in which a body deforms, with an amplitude q as a further coordinate of
-/// the body. Shapes are normal modes of the dry body: neither another mode nor a rigid motion
+/// Table [[mode]]: shape in which a body deforms, with an amplitude q as an additional coordinate
+/// of the body. Shapes are normal modes of the dry body: neither another mode nor a rigid motion
 /// shares their kinetic energy (Newman, Applied Ocean Research 16 (1994) 47-59).
 ///
-///   m q'' + c q' + k q = loads of the water and of what is attached, on the shape, and the weight
-///                        -g e_z.R w on it, w = integral of the shape over the mass
+///   m q'' + c q' + k q = loads of the water and of attached parts on the shape, and the weight
+///                         -g e_z.R w on it, w = integral of the shape over the mass
 struct Mode {
   static constexpr std::string_view doc = "A shape in which a body deforms: a normal mode of the "
                                           "dry body, whose amplitude is a further "
@@ -41,7 +41,7 @@ struct Mode {
   std::optional<Vector3> participation;
   std::optional<std::string> hydro;
   ModeInitial initial;
-  const std::string& label() const { return hydro ? *hydro : name; } ///< in the database
+  const std::string& label() const { return hydro ? *hydro : name; } ///< label in the database
 
   template <class M = Mode> static Fields<M> fields() {
     return {
@@ -63,8 +63,8 @@ struct Mode {
   }
 };
 
-/// Table [[attachment]]: a place on a body that moves with its modes. It has a name of its own, and
-/// joints, forces and markers use that name as they use the name of a body.
+/// Table [[attachment]]: place on a body that moves with its modes. Joints, forces and markers use
+/// its name like the name of a body.
 ///
 ///   place r + R (s + sum_k phi_k q_k), turned by sum_k psi_k q_k against the body (small)
 struct Attachment {

@@ -76,7 +76,7 @@ std::array<bool, 6> moving_axes(const Body& body) {
     const std::size_t i = (axis + 1) % 3, j = (axis + 2) % 3;
     moving[i] = moving[j] = moving[i] || moving[j];
   }
-  // A body held at a turned pose translates along oblique axes of its own, too.
+  // A body held at a turned pose translates along its own oblique axes.
   const bool oblique = rotations == 3 || (rotations == 0 && !body.initial.rotation.isZero(0.0));
   if (translates && oblique)
     moving[0] = moving[1] = moving[2] = true;

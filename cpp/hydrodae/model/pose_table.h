@@ -18,15 +18,15 @@ struct PoseTable {
                                           "pose: databases computed for several "
                                           "poses, blended by cubic splines.";
   std::string name, body, coordinate;
-  static constexpr std::size_t most = 100; ///< poses
-  std::vector<double> values, values_deg;  ///< one of the two is empty; the second is in radians
+  static constexpr std::size_t most = 100; ///< largest number of poses
+  std::vector<double> values, values_deg;  ///< one of the two is empty; values_deg is in radians
   std::vector<std::string> databases;
   std::string memory = "rest";
-  std::vector<std::shared_ptr<const hydro::Database>> loaded; ///< of `databases`
+  std::vector<std::shared_ptr<const hydro::Database>> loaded; ///< loaded `databases`
 
   bool blends_memory() const { return memory == "blended"; }
   bool turns() const { return coordinate != "heave"; }
-  int component() const; ///< 0..5
+  int component() const; ///< component of the pose, 0..5
   const std::vector<double>& poses() const { return turns() ? values_deg : values; }
 
   template <class T = PoseTable> static Fields<T> fields() {
@@ -62,18 +62,18 @@ struct PoseTable {
   }
 };
 
-/// The scene of the radiation and excitation of `table` at pose k: that database, and only this
+/// Scene for the radiation and excitation of `table` at pose k: with that database, and only this
 /// body in the water, moved to the pose.
 Scene scene_at_pose(const Scene& scene, const PoseTable& table, std::size_t k);
 
-/// The scene of the memory of rest: the database of the scene, and only the body of `table` in the
-/// water.
+/// Scene for the memory at rest: with the database of the scene, and only the body of `table` in
+/// the water.
 Scene scene_at_rest(const Scene& scene, const PoseTable& table);
 
-/// The scene of the radiation of all other bodies.
+/// Scene for the radiation of all other bodies.
 Scene scene_without_tables(const Scene& scene);
 
-/// The table of a body, or null.
+/// Table of a body, or null.
 const PoseTable* pose_table(const Scene& scene, const std::string& body);
 
 } // namespace hydrodae::model

@@ -1,6 +1,6 @@
 #pragma once
-/// The scene: everything that a case file says, as plain structs with names. Built by the case
-/// reader, checked by `check`, then immutable.
+/// Scene: the content of a case file as plain structs. The case reader builds it, `check` checks
+/// it; afterwards it is immutable.
 
 #include <cmath>
 #include <map>
@@ -74,7 +74,7 @@ struct Environment {
   }
 };
 
-/// Table [hydro]: the database and the rungs of the radiation ladder.
+/// Table [hydro]: the database and the radiation model.
 struct HydroOptions {
   static constexpr std::string_view doc =
       "The hydrodynamic database, and how the loads of the water are taken from it.";
@@ -131,12 +131,12 @@ struct BodyInitial {
   }
 };
 
-/// What a body that is not of the case stands for: a mode of another body, as the coordinate of
-/// translation along x, or an attachment on it.
+/// Origin of a body that is not in the case: a mode of another body, with translation along x as
+/// its amplitude, or an attachment on it.
 struct DeformablePart {
   bool mode = false;
-  std::size_t entry = 0; ///< in Scene::modes or Scene::attachments
-  std::string body;      ///< the one that deforms
+  std::size_t entry = 0; ///< index in Scene::modes or Scene::attachments
+  std::string body;      ///< body that deforms
 };
 
 /// Table [[body]].
@@ -149,7 +149,8 @@ struct Body {
   ValueOrWord<Vector3> inertia = {Vector3::Zero(), {}};
   std::optional<Vector3> radii_of_gyration;
   Vector3 products_of_inertia = Vector3::Zero();
-  std::optional<Vector3> principal_axes; ///< rotation vector; then `inertia`: principal moments
+  /// Rotation vector; `inertia` then holds the principal moments
+  std::optional<Vector3> principal_axes;
   std::optional<std::string> hydro;
   double volume = 0.0; ///< 0: not given
   std::optional<Vector3> center_of_buoyancy;
@@ -161,7 +162,7 @@ struct Body {
   bool waves_by_mesh() const { return froude_krylov == "mesh"; }
   std::shared_ptr<const hull::Mesh> hull; ///< read from `mesh`, about the centre of gravity
   BodyInitial initial;
-  std::optional<DeformablePart> part; ///< not of the case: what it stands for (deformation.h)
+  std::optional<DeformablePart> part; ///< origin of a body that is not in the case (deformation.h)
   bool is_mode() const { return part && part->mode; }
 
   template <class B = Body> static Fields<B> fields() {
@@ -236,7 +237,7 @@ struct Body {
   }
 };
 
-/// Start of a joint, in its own coordinate. Body B (and what hangs on it) is moved.
+/// Start of a joint, in its own coordinate. Body B and everything attached to it moves.
 struct JointInitial {
   static constexpr std::string_view doc =
       "Start of the joint in its own coordinate; body B, and what hangs on it, is moved.";
@@ -255,7 +256,7 @@ struct JointInitial {
   }
 };
 
-/// Table [[joint]]. Markers are made from `point`, `axis` (their z) and `axis_x` in the reference
+/// Table [[joint]]. Its markers follow from `point`, `axis` (their z) and `axis_x` in the reference
 /// pose of both bodies.
 struct Joint {
   static constexpr std::string_view doc =
@@ -275,10 +276,11 @@ struct Joint {
   std::optional<double> restitution, contact_time;
   JointInitial initial;
 
-  static Fields<Joint> fields(); ///< in scene.cpp: the choices of `type` are the joint table
+  /// Defined in scene.cpp: the choices of `type` come from the joint table
+  static Fields<Joint> fields();
 };
 
-/// Table [[marker]]: a point of a body whose motion is reported.
+/// Table [[marker]]: point of a body whose motion is reported.
 struct Marker {
   static constexpr std::string_view doc = "A point of a body whose motion is reported.";
   std::string name;
@@ -314,8 +316,8 @@ struct OutputOptions {
   }
 };
 
-/// Every kind of force, in the order in which the case reader and the system visit them. A new kind
-/// is one header in element/ and one entry here.
+/// Kinds of forces, in the order in which the case reader and the system visit them. A new kind
+/// needs one header in element/ and one entry here.
 using Forces = std::tuple<std::vector<element::MooringMatrix>, std::vector<element::PtoLinear>,
                           std::vector<element::SpringDamper>, std::vector<element::ConstantLoad>,
                           std::vector<water::ViscousDamping>, std::vector<element::DryFriction>,
@@ -329,7 +331,7 @@ using Forces = std::tuple<std::vector<element::MooringMatrix>, std::vector<eleme
                           std::vector<element::PtoLagged>>;
 
 struct Scene {
-  // Written once, in scene.cpp: every list of forces is copied and freed there.
+  // Defined once in scene.cpp, because every list of forces is copied and freed there.
   Scene();
   ~Scene();
   Scene(const Scene&);
@@ -338,7 +340,7 @@ struct Scene {
   Scene& operator=(Scene&&) noexcept;
 
   std::string title;
-  std::vector<std::string> missing; ///< parts of the modelled device that the case lacks, as text
+  std::vector<std::string> missing; ///< parts of the modelled device that the case lacks
   Environment environment;
   std::optional<HydroOptions> hydro;
   std::vector<Body> bodies;
@@ -359,21 +361,21 @@ struct Scene {
   std::vector<PoseTable> pose_tables;
   std::shared_ptr<const hydro::Database> database; ///< null without [hydro]
 
-  std::string text; ///< the case file as read, with the overrides that were applied noted below
-  std::string path; ///< "" when it was parsed from a string
-  std::vector<InputFile> files;            ///< all that it reads, in the order of reading
+  std::string text;                        ///< case file as read, followed by the applied overrides
+  std::string path;                        ///< path; "" if it was parsed from a string
+  std::vector<InputFile> files;            ///< files that it reads, in the order of reading
   std::vector<std::string> overrides;      ///< "key = value" as given on the command line
-  std::map<std::string, FilePlace> places; ///< of all keys that are given, by their path
+  std::map<std::string, FilePlace> places; ///< places of all given keys, by their path
   std::vector<Controller> controllers;
   std::vector<sea::Gauge> gauges;
   std::optional<SecondOrder> second_order;
 };
 
-/// Cross-checks that need more than one entry: names exist and are unique, masses and inertias are
-/// physical, the database covers the scene. Throws ModelError with the key path of the culprit.
+/// Checks that involve several entries: names exist and are unique, masses and inertias are
+/// physical, the database covers the scene. Throws ModelError with the path of the faulty key.
 void check(const Scene& scene);
 
-/// The water of a checked scene: from its database, else from [environment].
+/// Water of a checked scene, from its database or from [environment].
 struct Water {
   double density = 0.0;    ///< [kg/m3]
   double depth = INFINITY; ///< [m]
@@ -381,10 +383,10 @@ struct Water {
 };
 Water water(const Scene& scene);
 
-/// The scene as a short tree for people.
+/// Summary of the scene as a short tree.
 std::string summary(const Scene& scene);
 
-/// A ModelError with the place of its key in the case file, or of the entry that should have it.
+/// Error with the place of its key in the case file, or of the entry that lacks it.
 CaseError located(const Scene& scene, const ModelError& error);
 
 } // namespace hydrodae::model

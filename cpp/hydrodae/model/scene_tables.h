@@ -1,5 +1,5 @@
 #pragma once
-/// The tables of a case file and where they stand in the scene: the one list of them.
+/// Tables of a case file and their members in the scene, in one list.
 
 #include <string_view>
 #include <tuple>
@@ -36,7 +36,7 @@ template <class Visit> void for_each_table(const Visit& visit) {
   visit("output", &Scene::output);
 }
 
-/// Must every case have this table?
+/// Returns whether every case must have this table.
 constexpr bool is_required_table(std::string_view name) {
   return name == "body" || name == "solver";
 }

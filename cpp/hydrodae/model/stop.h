@@ -4,7 +4,7 @@
 
 namespace hydrodae::model {
 
-/// lower <= s <= upper, with impacts: s' after = -restitution s' before.
+/// Stop, lower <= s <= upper, with impacts: s' after = -restitution s' before.
 struct Stop : Conditional {
   static constexpr std::string_view type = "stop";
   static constexpr std::string_view doc = "A joint coordinate stays within bounds, with impacts.";

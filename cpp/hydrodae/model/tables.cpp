@@ -11,7 +11,7 @@
 namespace hydrodae::model {
 namespace {
 
-/// The table of a struct, without types.
+/// Table of a struct without types.
 template <class T> TableInfo plain_table(const std::string& name) {
   TableInfo table{
       name, std::string(doc_of<T>()), false, is_required_table(name), field_infos<T>(), {}, {}};
@@ -22,7 +22,7 @@ template <class T> TableInfo plain_table(const std::string& name) {
   return table;
 }
 
-/// Of a table with types only what they all have.
+/// Keeps only the keys that all types of a table share.
 void keep_common(TableInfo& table) {
   const auto in_all = [&](const auto& has) {
     return std::all_of(table.types.begin(), table.types.end(), has);
@@ -41,13 +41,13 @@ void keep_common(TableInfo& table) {
   });
 }
 
-/// The key `type`, which is no field of the structs that name theirs as a constant.
+/// Key `type`, which is no field of the structs: they name theirs as a constant.
 FieldInfo type_field(const std::string& doc, std::vector<std::string> choices) {
   FieldInfo field{"type", "-", doc, ValueKind::word, true, any_value, std::move(choices), ""};
   return field;
 }
 
-/// A list whose entries are one of several structs; `for_each_type` calls with each of them.
+/// List whose entries are one of several structs; `for_each_type` calls with each of them.
 template <class ForEach>
 TableInfo typed_table(const std::string& name, const std::string& doc, const ForEach& for_each) {
   TableInfo table{name, doc, true, false, {}, {}, {}};
@@ -68,7 +68,7 @@ TableInfo typed_table(const std::string& name, const std::string& doc, const For
   return table;
 }
 
-/// [[joint]]: the rows of the joint table are its types, each with the keys that it needs.
+/// Table [[joint]]: the rows of the joint table are its types, each with the keys that it needs.
 TableInfo joint_table(const std::string& name) {
   TableInfo table = plain_table<Joint>(name);
   table.list = true;

@@ -1,5 +1,5 @@
 #pragma once
-/// From the solution to the columns of the results.
+/// Columns of the results from the solution.
 
 #include <span>
 
@@ -9,8 +9,8 @@ namespace hydrodae::observe {
 
 using system::BodyState, system::Regime;
 
-/// Fills rows of the results from what a Measure has summed and its observer sees. It changes
-/// nothing that a run goes on from.
+/// Fills rows of the results from the sums of a Measure and its observer. It does not affect the
+/// run.
 class Recorder {
 public:
   using Interpolant = measure::Measure::Interpolant;
@@ -36,7 +36,7 @@ public:
     fill(measure_.start(), row);
   }
 
-  /// The bodies, and y, at the last sample.
+  /// Bodies, and y, at the last sample.
   const std::vector<BodyState<double>>& bodies() const { return measure_.observer().bodies(); }
   const VectorX& state() const { return y_; }
 

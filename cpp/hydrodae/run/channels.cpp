@@ -10,7 +10,7 @@ namespace hydrodae::run {
 
 namespace {
 
-/// The columns that belong to the solver rather than to the scene.
+/// Columns of the solver.
 const std::vector<Channel> solver_channels = {
     {"solver/step", 1, "s", "-", "Length of the step that holds this sample."},
     {"solver/order", 1, "-", "-", "Order of that step."}};

@@ -1,5 +1,5 @@
 #pragma once
-/// What can be read of a run: the columns of its results.
+/// Channels of a run: the columns of its results.
 
 #include <optional>
 #include <span>
@@ -12,7 +12,7 @@
 
 namespace hydrodae::run {
 
-/// What the stops of a scene have taken so far: columns of sums.
+/// Impulses and work of the stops so far, as columns of sums.
 class ImpactOutput {
 public:
   explicit ImpactOutput(const system::System& system);
@@ -20,16 +20,16 @@ public:
   std::vector<Channel> channels() const;
   std::size_t width() const { return 2 * stops_.size(); }
 
-  /// Sums so far, in the order of the channels; `at` is of width().
+  /// Writes the sums so far, in the order of the channels; `at` has width() entries.
   void fill(const events::Switching* switching, double* at) const;
 
   struct Stop {
-    std::size_t index; ///< among the switches
+    std::size_t index; ///< index of the stop among the switches
     std::string name;
     bool angle;
-    std::optional<double> contact_time; ///< [s]
+    std::optional<double> contact_time; ///< duration of the impact [s]
 
-    /// Of half a sine that lasts the contact time: pi J / 2 T [N or N m].
+    /// Peak load of a half sine over the contact time: pi J / 2 T [N or N m].
     double peak(double impulse) const { return 0.5 * pi * impulse / *contact_time; }
   };
   const std::vector<Stop>& stops() const { return stops_; }
@@ -38,10 +38,10 @@ private:
   std::vector<Stop> stops_;
 };
 
-/// The recorder's columns, those of the solver and of the impacts; then what controllers hold.
+/// Columns of the recorder, the solver, the impacts, and the controllers' held values.
 class Channels {
 public:
-  /// @param held columns of what controllers hold
+  /// @param held  columns of the values that controllers hold
   Channels(const system::Regime& regime, measure::Measure& measure,
            const std::vector<Channel>& held);
 
@@ -51,16 +51,16 @@ public:
   const observe::Recorder& recorder() const { return recorder_; }
   const ImpactOutput& impacts() const { return impacts_; }
 
-  /// What stands in the columns behind the recorder's.
+  /// Values of the columns after those of the recorder.
   struct Counts {
-    linalg::Statistics last; ///< its step and order
+    linalg::Statistics last; ///< statistics with the last step and its order
     const events::Switching* switching = nullptr;
-    std::vector<double> held; ///< by controllers
+    std::vector<double> held; ///< values held by controllers
   };
   void fill(const Counts& counts, std::span<double> row) const;
 
-  /// The numbers of a channel in a row: one, three or four; one of a component, "velocity.z".
-  /// Throws CaseError, with the nearest name, for an unknown one.
+  /// Values of a channel in a row: one, three or four; one for a component, "velocity.z". Throws
+  /// CaseError with the nearest name for an unknown channel.
   std::span<const double> find(const std::string& name, std::span<const double> row) const;
 
 private:

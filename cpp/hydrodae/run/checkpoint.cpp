@@ -24,12 +24,12 @@ io::Texts identity(const model::Scene& scene) {
 bool is_checkpoint(const std::string& path) {
   try {
     return io::read_texts(path)["format"].starts_with("hydrodae-checkpoint");
-  } catch (const CaseError&) { // no HDF5, or cut off
+  } catch (const CaseError&) { // not HDF5, or truncated
     return false;
   }
 }
 
-/// Throws CaseError naming what is not that of the scene.
+/// Throws CaseError that names the first item that differs from the scene.
 void check_identity(const std::string& path, const io::Texts& found, const model::Scene& scene) {
   static const std::map<std::string, std::string> words = {
       {"format", "is no checkpoint of this version of hydrodae"},
@@ -79,7 +79,7 @@ Checkpoint read_checkpoint(const std::string& results, const model::Scene& scene
     const auto sum = file.texts.find("sha256");
     if (sum != file.texts.end() && sum->second == io::sha256_of_text(file.bytes))
       return from_bytes<Checkpoint>(file.bytes);
-  } catch (const Error&) { // of other bytes
+  } catch (const Error&) { // bytes of another kind
   }
   throw CaseError(path + ": cannot be resumed: it is damaged");
 }

@@ -12,7 +12,7 @@ namespace hydrodae::run {
 
 namespace {
 
-/// The dry friction whose largest load the first output of the controller is, if it is one.
+/// Dry friction whose largest load is the first output of the controller, if there is one.
 std::optional<control::Friction> friction_of(const model::Controller& c,
                                              const system::Regime& regime) {
   const system::SwitchData* friction = find_friction(regime, signal_of(c->outputs.front()).name);
@@ -25,7 +25,7 @@ std::optional<control::Friction> friction_of(const model::Controller& c,
                            }};
 }
 
-/// The channel behind a name with a component, "velocity.z"; its own name where it has one number.
+/// Channel of a name with a component, "velocity.z", or of its own name if it has one value.
 const Channel* find_channel(const std::vector<Channel>& channels, const std::string& name,
                             std::size_t& column) {
   static const std::string of_three = "xyz", of_four = "wxyz";
@@ -45,7 +45,7 @@ const Channel* find_channel(const std::vector<Channel>& channels, const std::str
   return nullptr;
 }
 
-/// A channel or input of the scene, in the unit that stands behind its name or in its own.
+/// Terminal for a channel or input of the scene, in the unit given with its name, or in its own.
 control::Terminal terminal(const SignalName& named, const std::string& own, double start) {
   control::Terminal out{named.name, named.unit.value_or(own), start, own, {}};
   if (out.unit == own)
@@ -63,7 +63,7 @@ control::Terminal terminal(const SignalName& named, const std::string& own, doub
   return out;
 }
 
-/// Is an instant reached at t? Those that differ by the rounding of k T or t + delay are one.
+/// Returns whether t has reached an instant, up to the rounding of k T or t + delay.
 bool reached(double instant, double t) {
   constexpr double rounding = 32.0 * std::numeric_limits<double>::epsilon();
   return instant <= t * (1.0 + rounding);
@@ -115,7 +115,7 @@ control::Terminals find_terminals(const model::Controller& controller,
   try {
     for (const std::string& text : controller->inputs) {
       const SignalName named = signal_of(text);
-      std::size_t column = find_column(channels, named.name); // or refuses
+      std::size_t column = find_column(channels, named.name); // throws for an unknown name
       out.inputs.push_back(terminal(named, find_channel(channels, named.name, column)->unit, 0.0));
     }
     key = "outputs";
@@ -252,16 +252,16 @@ bool Controllers::act(double t, bool event, std::span<const double> row) {
   return changed;
 }
 
-/// The k-th instant is k T, without the rounding of a sum.
+/// Samples the law; the k-th instant is k T, without the rounding of a sum.
 void Controllers::One::sample(double t, std::span<const double> row) {
   for (std::size_t k = 0; k < columns.size(); ++k)
     in[k] = terminals.inputs[k].to_own.back(row[columns[k]]);
   using Clock = std::chrono::steady_clock;
   const Clock::time_point before = Clock::now();
   law->sample(t, in, state.out);
-  if (cost.calls++ > 0) // the first waits for another program to be there
+  if (cost.calls++ > 0) // the first call also waits for the start of another program
     cost.time += std::chrono::duration<double>(Clock::now() - before).count();
-  std::vector<double> answer; // in the units of the scene
+  std::vector<double> answer; // answer in the units of the scene
   for (std::size_t k = 0; k < state.out.size(); ++k)
     try {
       answer.push_back(terminals.outputs[k].to_own.of(state.out[k]));
@@ -280,7 +280,7 @@ void Controllers::One::sample(double t, std::span<const double> row) {
   state.late.emplace_back(t + delay, std::move(answer));
 }
 
-/// @returns whether an input has another value now
+/// @returns whether the value of an input has changed
 bool Controllers::One::write(double t) {
   bool changed = false;
   for (; !state.late.empty() && reached(state.late.front().first, t); state.late.pop_front())

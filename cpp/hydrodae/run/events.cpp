@@ -25,8 +25,8 @@ std::optional<double> RunEvents::locate(double start, Instant& end,
                                         integrate::Integrator& integrator) {
   if (sources_.empty())
     return std::nullopt;
-  const int degree = integrator.degree() + 1; // of the positions
-  // Stops are met to within rounding, on the constraints; the margins of others follow from
+  const int degree = integrator.degree() + 1; // degree of the positions
+  // Stop contacts are located to rounding, on the constraints. Margins of other events follow from
   // positions and velocities, which the polynomial of the step gives without solving for loads.
   const auto at = [&](double t, VectorX& y, VectorX& yp) {
     switching_ ? integrator.interpolate(t, y, yp) : integrator.follow_motion(t, y, yp);
@@ -52,7 +52,7 @@ std::optional<double> RunEvents::settle(Instant& at) {
       switching_ ? switching_->settle(at.t, at.y, at.yp) : consistency().restore(at.t, at.y, at.yp);
   if (struck && laws_->settle(at.t, at.y) && !switching_)
     consistency().restore(at.t, at.y, at.yp);
-  if (switching_) // rows come and go
+  if (switching_) // rows may be added or removed
     problem_.pattern = system::find_pattern(problem_.regime);
   return struck;
 }
@@ -88,7 +88,7 @@ void RunEvents::set(const State& from) {
   laws_->set(from.kinks);
   if (switching_)
     switching_->set(from.switching.value(), from.time, from.y, from.yp);
-  consistency_.reset(); // its pivots are those of its past
+  consistency_.reset(); // pivots of a new factorisation depend on the state alone
 }
 
 } // namespace hydrodae::run

@@ -1,5 +1,5 @@
 #pragma once
-/// All events of a run: where they are inside a step, and what holds from them on.
+/// Events of a run: their location inside a step, and the equations after them.
 
 #include <memory>
 #include <optional>
@@ -15,33 +15,34 @@ namespace hydrodae::run {
 
 class RunEvents : public Follower {
 public:
-  /// At the start, whose y, y' come out as the rows that hold have them.
+  /// @param start  start of the run; on return y, y' satisfy the rows that hold
   RunEvents(Problem& problem, Instant& start);
 
-  /// Adds those that controllers hear.
+  /// Adds the event sources of controllers.
   void add(const std::vector<events::Source*>& sources);
 
   bool any() const { return !sources_.empty(); }
 
-  /// The first event inside a step, if any.
-  /// @param end the end of the step; y, y' come out there where no event is found
+  /// First event inside a step, if any.
+  /// @param end  end of the step; without an event y, y' are set to those at the end
   std::optional<double> locate(double start, Instant& end, integrate::Integrator& integrator);
 
-  /// What parts does so at an event; else laws may have left their kink.
+  /// Handles lines that part at an event; otherwise laws may have left their kink.
   void accept(const Step& step) override;
 
-  /// Rows and loads that hold from `at` on, with y, y' that belong to them.
-  /// @returns the work of all rows through their impulses [J], where something struck
+  /// Finds the rows and loads that hold from `at` on, with consistent y, y'.
+  /// @returns the work of all rows through their impulses [J], if an impact occurred
   std::optional<double> settle(Instant& at);
 
-  /// y, y' by the loads at a time; false: no finite rates exist.
+  /// Makes y, y' consistent with the loads at time t; false: no finite rates exist.
   bool restore(double t, VectorX& y, VectorX& yp);
 
-  /// What is made from now on knows on which turn the angles are.
+  /// Sets the turns of the angles for objects made from now on.
   void follow(const system::Turns& turns);
 
   const events::Switching* switching() const { return switching_.get(); }
-  long count() const { return switching_ ? switching_->events() - 1 : 0; } ///< without the start
+  /// Number of events after the start
+  long count() const { return switching_ ? switching_->events() - 1 : 0; }
 
   void save(State& out) const override;
   void set(const State& from) override;
@@ -50,10 +51,10 @@ private:
   statics::Consistency& consistency();
 
   Problem& problem_;
-  std::unique_ptr<events::Switching> switching_; ///< where stops or dry friction are
+  std::unique_ptr<events::Switching> switching_; ///< null without stops and dry friction
   std::optional<events::LawEvents> laws_;
-  std::vector<events::Source*> sources_;              ///< of events: all there are
-  std::unique_ptr<statics::Consistency> consistency_; ///< null: none was needed since a restore
+  std::vector<events::Source*> sources_;              ///< sources of all events
+  std::unique_ptr<statics::Consistency> consistency_; ///< null: not needed since a restore
 };
 
 } // namespace hydrodae::run

@@ -1,5 +1,5 @@
 #pragma once
-/// Parts of a run that look at its steps and belong to rooms below.
+/// Adapters that connect parts of lower layers to the steps of a run.
 
 #include "hydrodae/run/controllers.h"
 #include "hydrodae/run/state.h"
@@ -13,7 +13,7 @@ public:
   void accept(const Step& step) override { part_.accept(step.end, step.y, step.yp); }
 };
 
-/// The regime knows the angles that have been measured.
+/// Follower of the measure; the angles of the regime then are on the measured turns.
 class MeasureFollower : public FollowerOf<&State::measure, measure::Measure> {
 public:
   MeasureFollower(measure::Measure& measure, system::Regime& regime)

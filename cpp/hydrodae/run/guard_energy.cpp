@@ -1,5 +1,5 @@
-/// Guard of the energy that the equations keep, at which the integrator does not look: energy that
-/// is missing shows a branch lost in a singular pose, or a tolerance too loose.
+/// Guard of the energy balance, which the integrator does not control. Missing energy shows a
+/// branch lost in a singular pose, or a tolerance that is too loose.
 
 #include <algorithm>
 #include <cmath>
@@ -13,24 +13,25 @@ namespace hydrodae::run {
 
 namespace {
 
-constexpr double usual = 1e-2;  ///< part of the energy exchanged
-constexpr double little = 1e-2; ///< of `energy_of_errors`: the errors of one step, not of a hundred
+constexpr double usual = 1e-2; ///< allowed part of the energy exchanged
+/// Part of `energy_of_errors` that is the error of one step, not of a hundred
+constexpr double little = 1e-2;
 
 /// Part of the potential energy m g L of a body that rounding may lose: 2e-16 in each of 5000
 /// steps.
 constexpr double rounded_off = 1e-12;
 
-/// Energy exchanged, as far as a wrong step cannot have made it up: what was exchanged before it,
-/// times ten, or what moves at its end [J].
+/// Energy exchanged that a wrong step cannot have produced itself [J]: ten times the exchange
+/// before the step, or the kinetic energy at its end.
 double believed(const measure::Balance& before, const measure::Balance& now) {
   constexpr double more = 10.0;
   return std::min(now.exchanged, std::max(more * before.exchanged, now.kinetic));
 }
 
 /// Part of the energy exchanged that may be missing at a singular pose of a loop, where energy and
-/// motion are lost together; of the motion, relative to its size, measured ten times (slider crank
-/// with equal bars) to 200 times as much (two four-bar windows, ten seconds). Allowed are errors of
-/// some sqrt(rtol), of some hundredths with fixed steps.
+/// motion are lost together. The relative error of the motion was 10 times (slider crank with equal
+/// bars) to 200 times (two four-bar windows, ten seconds) as large. The limit thus allows a few
+/// sqrt(rtol), or a few hundredths with fixed steps.
 double guard_at_singular_poses(const SolverOptions& options) {
   return options.step > 0.0 ? 5e-4
                             : std::min(usual, 1e-2 * std::sqrt(std::max(options.rtol, 1e-6)));
@@ -43,7 +44,7 @@ public:
         at_singular_(in.options.energy_guard ? part_ : guard_at_singular_poses(in.options)),
         guided_(system::guided_mechanisms(in.system)), poses_(in.poses) {}
 
-  /// The balance of the scene, then that of each mechanism.
+  /// Judges the balance of the scene, then that of each mechanism.
   void judge(const Step& step) override {
     const measure::Measure& measure = step.measure;
     const std::vector<measure::Balance>& mechanisms = measure.mechanisms();
@@ -53,7 +54,7 @@ public:
             believed(measure.mechanisms_before()[m], mechanisms[m]));
   }
 
-  /// The same over the whole run, with next to no energy too little to judge.
+  /// Judges the balance of the whole run, with almost no energy too small to judge.
   void finish(const Step& step) override {
     const auto look = [&](int mechanism, double error, double exchanged) {
       const double part = std::max(allowed(mechanism), usual);
@@ -69,15 +70,15 @@ public:
 
 private:
   struct Excess {
-    double error;        ///< of the balance [J]
-    double allowed_part; ///< of the energy exchanged [-]
-    double exchanged;    ///< [J]
+    double error;        ///< error of the balance [J]
+    double allowed_part; ///< allowed part of the energy exchanged [-]
+    double exchanged;    ///< energy exchanged [J]
   };
 
   void judge(const Step& step, int mechanism, double error, double exchanged) {
     if (std::abs(error) <= std::min(part_, at_singular_) * exchanged)
       return;
-    // A method that would fail at the end of the run hands over while it can.
+    // A method that would fail at the end of the run is replaced while that is possible.
     const double spared = least(mechanism) * (step.may_change ? little : 1.0),
                  missing = std::abs(error) - spared, part = allowed(mechanism);
     if (missing <= std::min(part, at_singular_) * exchanged)
@@ -94,8 +95,8 @@ private:
 
   double least(int mechanism) const { return energy_of_errors(s_, rtol_, mechanism); }
 
-  /// Where drives guide all, the energy measures the reactions, which are a derivative less exact,
-  /// and hardly the motion.
+  /// Allowed part of the energy. In mechanisms that drives guide fully, it is larger: the energy
+  /// then measures the reactions, which are one derivative less exact, and hardly the motion.
   double allowed(int mechanism) const {
     constexpr double more = 10.0;
     const bool guided = mechanism >= 0
@@ -104,7 +105,7 @@ private:
     return guided ? more * part_ : part_;
   }
 
-  /// " of 'crank', 'rod'"; empty for the whole scene (-1).
+  /// Names of the bodies, " of 'crank', 'rod'"; empty for the whole scene (-1).
   std::string members(int mechanism) const {
     if (mechanism < 0)
       return "";
@@ -131,7 +132,7 @@ private:
 
   const system::Regime& s_;
   double rtol_, part_, at_singular_;
-  std::vector<bool> guided_; ///< by mechanism: joints and drives leave it no motion of its own
+  std::vector<bool> guided_; ///< true for mechanisms that joints and drives leave no free motion
   PoseWatch& poses_;
 };
 
@@ -141,7 +142,7 @@ bool energy_minds_singular_poses(const SolverOptions& options) {
   return !options.energy_guard && guard_at_singular_poses(options) < usual;
 }
 
-/// 100 rtol m v^2 with the speed that counts as one.
+/// Energy of errors within the tolerance: 100 rtol m v^2 with the unit speed of the scales.
 double energy_of_errors(const system::Regime& s, double rtol, int mechanism) {
   double out = 0.0;
   for (const system::BodyData& b : s.bodies) {
@@ -157,7 +158,7 @@ double energy_of_errors(const system::Regime& s, double rtol, int mechanism) {
 
 double allowed_energy(const SolverOptions& options) { return options.energy_guard.value_or(usual); }
 
-/// A part of zero switches it off.
+/// Energy guard; null if its allowed part is zero.
 std::unique_ptr<Follower> make_energy_guard(const GuardInputs& in) {
   if (allowed_energy(in.options) == 0.0)
     return nullptr;

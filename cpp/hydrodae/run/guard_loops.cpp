@@ -1,4 +1,4 @@
-/// Guards of closed loops and their constraints: velocities that jump, gaps that open.
+/// Guards of closed loops and their constraints: jumps of velocities, open gaps.
 
 #include <algorithm>
 #include <cmath>
@@ -15,18 +15,19 @@ namespace hydrodae::run {
 
 namespace {
 
-constexpr double allowed_gap = 1e-2; ///< of the scale of the row
+constexpr double allowed_gap = 1e-2; ///< allowed gap, as part of the scale of the row
 constexpr double allowed_gap_at_singular_pose = 1e-5;
-constexpr double allowed_jump = 0.3; ///< of the largest kinetic energy so far
-constexpr double window = 3e-3;      ///< of the shortest time scale of a body
+constexpr double allowed_jump = 0.3; ///< allowed jump, as part of the largest kinetic energy so far
+constexpr double window = 3e-3;      ///< time window, as part of the shortest time scale of a body
 
-/// Both levels of the constraints: in formulations that do not keep them they drift apart.
+/// Guard of the constraints at both levels, which drift apart in formulations that do not keep
+/// them.
 class DriftGuard final : public Follower {
 public:
   DriftGuard(const system::Regime& s, PoseWatch& poses) : s_(s), poses_(poses) { make(); }
 
-  /// Gaps above a hundredth of their scale end the run. Above 1e-5 those of positions do so at a
-  /// singular pose: loops that do not close pass it at a distance of sqrt(gap), which turns the
+  /// A gap above a hundredth of its scale ends the run; at a singular pose a position gap above
+  /// 1e-5. Loops with a gap pass a singular pose at a distance of sqrt(gap), which can turn the
   /// motion into another branch.
   void judge(const Step& step) override {
     const Index worst = widest(step);
@@ -40,16 +41,16 @@ public:
 private:
   void make() { rows_ = std::make_unique<Rows>(s_); }
 
-  /// The rows that hold now.
+  /// Rows that hold now.
   struct Rows {
     explicit Rows(const system::Regime& s)
         : system(stabilised(s)), workspace(system), residual(s.n) {}
     system::Regime system;
     system::Workspace<double> workspace;
-    VectorX residual; ///< over the scales
+    VectorX residual; ///< residual relative to the scales
   };
 
-  /// Row of the widest gap of the positions. Throws SolverError for one that is too wide anyway.
+  /// Index of the row with the widest position gap. Throws SolverError if a gap is too wide.
   Index widest(const Step& step) {
     const system::Regime& s = rows_->system;
     VectorX& gaps = rows_->residual;
@@ -62,7 +63,7 @@ private:
       const double gap = std::abs(gaps[i]);
       if (!rate && gap > std::abs(gaps[worst]))
         worst = i;
-      // Rates count from a tenth of the scale: index 3 leaves some noise in them.
+      // Rates count from a tenth of the scale: index 3 leaves noise in them.
       if (!(gap <= allowed_gap * (rate ? 10.0 : 1.0)))
         fail(step.end, i, "");
     }
@@ -87,9 +88,10 @@ private:
   PoseWatch& poses_;
 };
 
-/// In a singular pose of a closed loop the motion may jump to another branch: the velocities change
-/// at once, though nothing strikes. Measured: 0.6 to 3 of the largest kinetic energy of a mechanism
-/// within 0.003 time scales on a wrong branch, below 0.01 otherwise.
+/// Guard against jumps to another branch in a singular pose of a closed loop, where velocities
+/// change at once without an impact. Within 0.003 time scales the kinetic energy of the jump was
+/// 0.6 to 3 of the largest kinetic energy of the mechanism on a wrong branch, and below 0.01
+/// otherwise.
 class BranchGuard final : public EndGuard {
 public:
   explicit BranchGuard(const system::Regime& s)
@@ -123,14 +125,14 @@ public:
     state_.past.emplace_back(t, u);
   }
 
-  /// The velocities have jumped for a reason: something struck.
+  /// Restarts the window: an impact has changed the velocities.
   void restart(const Restart&) override { state_.past.clear(); }
 
   void save(State& out) const override { out.guards.branch = state_; }
   void set(const State& from) override { state_ = from.guards.branch; }
 
 private:
-  /// (n_mechanisms,) Kinetic energy of each mechanism at the velocities u [J].
+  /// Kinetic energy of each mechanism at the velocities u (n_mechanisms,) [J].
   VectorX energies(const VectorX& u) const {
     VectorX out = VectorX::Zero(std::max(s_.n_mechanisms, 1));
     for (Index k = 0; k < u.size(); ++k)
@@ -154,9 +156,9 @@ private:
   }
 
   const system::Regime& s_;
-  VectorX mass_;               ///< (n_u,) of each velocity
-  std::vector<int> mechanism_; ///< (n_u,) of each velocity
-  double window_ = HUGE_VAL;   ///< [s]
+  VectorX mass_;               ///< (n_u,) mass of each velocity
+  std::vector<int> mechanism_; ///< (n_u,) mechanism of each velocity
+  double window_ = HUGE_VAL;   ///< time window [s]
   BranchState state_;
 };
 
@@ -172,7 +174,7 @@ std::unique_ptr<Follower> make_drift_guard(const GuardInputs& in) {
   return std::make_unique<DriftGuard>(in.system, in.poses);
 }
 
-/// Only scenes with loops have singular poses to fear.
+/// Branch guard; null for scenes without loops, which have no singular poses.
 std::unique_ptr<EndGuard> make_branch_guard(const system::Regime& system,
                                             const SolverOptions& options) {
   if (!options.branch_guard || !has_loop(system))

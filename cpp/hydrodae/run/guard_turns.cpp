@@ -1,9 +1,9 @@
 /// Guard of rotation vectors beyond half a turn.
 ///
-/// Up to 180 degrees a rotation is a vector, whatever the way there. Beyond, the vector goes on
-/// (system/turning.h) as long as the rotation keeps its axis. A rotation that leaves it by a small
-/// angle d passes a full turn with a vector that swings round within the angle d: each such turn
-/// changes the motion by a part d. So d is held to what the tolerance bears anyway.
+/// Up to 180 degrees a rotation is a vector, whatever its path. Beyond that the vector continues
+/// (system/turning.h) while the rotation keeps its axis. A rotation at a small angle d from its
+/// axis passes a full turn with a vector that swings round within d, which changes the motion by a
+/// part d. The tolerance limits d.
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
@@ -15,9 +15,10 @@ namespace hydrodae::run {
 
 namespace {
 
-constexpr double borne = 100.0; ///< tolerances; a sound error test bears some
+/// Allowed error in units of the tolerance; a sound error test stays below
+constexpr double borne = 100.0;
 
-/// Ends the run where a load follows such a vector and there is no axis.
+/// Guard that ends the run if a load follows a rotation vector that has no axis.
 class TurnGuard final : public EndGuard {
 public:
   TurnGuard(const system::Regime& s, double rtol)
@@ -39,7 +40,7 @@ public:
   void set(const State& from) override { axes_ = from.guards.axes; }
 
 private:
-  /// Follows the axis up to half a turn. @returns whether the rotation has left it beyond
+  /// Follows the axis up to half a turn. @returns whether the rotation has left it beyond that
   bool leaves_axis(const Vector3& vector, Eigen::Map<Vector3> axis) const {
     const double angle = vector.norm();
     if (angle <= pi || axis.isZero(0.0)) {
@@ -62,7 +63,7 @@ private:
       }
   }
 
-  /// Does the load of this law change with the rotation?
+  /// Returns whether the load of this law changes with the rotation.
   bool feels_rotation(const system::ElementList& list, std::size_t law, const StepEnd& step) {
     const element::Elements& laws = *list.laws;
     system::ElementScratch<double>& scratch = ws_.elements[system::index_of(s_, list)];
@@ -97,9 +98,10 @@ private:
   }
 
   const system::Regime& s_;
-  double allowed_; ///< angle off the axis [rad]
+  double allowed_; ///< largest angle to the axis [rad]
   system::Workspace<double> ws_;
-  std::vector<double> axes_; ///< of each rotation where it was last within half a turn; zero: none
+  /// Axis of each rotation when it was last within half a turn; zero: none
+  std::vector<double> axes_;
 };
 
 } // namespace

@@ -14,7 +14,7 @@ namespace hydrodae::run {
 
 namespace {
 
-/// Constraint rows that the assembly left out: their gaps prove whether they follow from others.
+/// Guard of redundant constraint rows, which the assembly left out: their gaps must stay closed.
 class DroppedRowsGuard final : public EndGuard {
 public:
   DroppedRowsGuard(const system::Regime& s, const SolverOptions& options)
@@ -40,22 +40,22 @@ public:
   }
 
 private:
-  /// Part of a body's arm up to which formulations that let constraints drift may open a row.
+  /// Largest opening as part of a body's arm, in formulations with drifting constraints.
   static constexpr double drifted = 1e-2;
   system::DroppedRows rows_;
-  /// Joints fit each other within tolerance_assembly, and the rows that hold are met within rtol of
-  /// their scale: a row that follows from them may be open by a multiple of both.
+  /// Joints fit within tolerance_assembly, and the rows that hold within rtol of their scale. A
+  /// redundant row may be open by a multiple of both.
   double allowed_;
 };
 
-/// Positions so large that their rounding hides what the tolerance asks for: steps shrink there
-/// without end, and no shorter one is better. It is held against the sizes of the bodies, since the
-/// scale of what has not moved yet is next to nothing.
+/// Guard against positions whose rounding exceeds the tolerance: steps shrink there without end.
+/// Rounding is relative to the size of the bodies, because the scale of something that has not
+/// moved is almost zero.
 class RoundingGuard final : public EndGuard {
 public:
   RoundingGuard(const system::Regime& s, double rtol)
       : s_(s), size_(VectorX::Constant(s.lambda0, INFINITY)) {
-    constexpr double allowed = 100.0; // tolerances; a sound error test bears some
+    constexpr double allowed = 100.0; // tolerances; a sound error test stays below
     const double times = allowed * rtol / rounding;
     for (const system::BodyData& b : s.bodies)
       for (int k = 0; k < b.n_position; ++k)
@@ -87,10 +87,10 @@ public:
 private:
   static constexpr double rounding = std::numeric_limits<double>::epsilon();
   const system::Regime& s_;
-  VectorX size_; ///< (lambda0,) largest positions whose rounding is bearable, else infinite
+  VectorX size_; ///< (lambda0,) largest positions with acceptable rounding, else infinite
 };
 
-/// Friction that its joint presses, against Painleve's paradox.
+/// Guard of friction with a bearing against Painleve's paradox.
 class JamGuard final : public Follower {
 public:
   JamGuard(const system::Regime& s, const system::Pattern& pattern) : s_(s), pattern_(pattern) {
@@ -98,7 +98,7 @@ public:
   }
   void judge(const Step& step) override {
     if (step.event)
-      return; // other rows hold from there on, which the switches look at
+      return; // other rows hold from there on, which the switches check
     y_ = step.y;
     yp_ = step.yp;
     saddle_->accelerations(step.end, y_, yp_);
@@ -128,7 +128,7 @@ std::unique_ptr<EndGuard> make_dropped_rows_guard(const system::Regime& system,
   return guard;
 }
 
-/// Steps of a fixed length do not shrink.
+/// Rounding guard; null for steps of fixed length, which do not shrink.
 std::unique_ptr<EndGuard> make_rounding_guard(const system::Regime& system,
                                               const SolverOptions& options) {
   if (options.step > 0.0 || system.lambda0 == 0)

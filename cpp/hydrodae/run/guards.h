@@ -1,5 +1,5 @@
 #pragma once
-/// Guards of a run, in one list: each looks at every accepted step, in the order of the list.
+/// Guards of a run in one list: each checks every accepted step, in the order of the list.
 
 #include <deque>
 #include <memory>
@@ -12,42 +12,43 @@
 
 namespace hydrodae::run {
 
-/// Velocities in the window in which a jump is one.
+/// Velocities in the time window of the branch guard.
 struct BranchState {
-  VectorX largest;                             ///< kinetic energy by mechanism [J]
-  std::deque<std::pair<double, VectorX>> past; ///< times in the window and the velocities there
+  VectorX largest;                             ///< largest kinetic energy by mechanism [J]
+  std::deque<std::pair<double, VectorX>> past; ///< times in the window, with the velocities
 };
 
 struct GuardStates {
   PoseWatch::State poses;
   BranchState branch;
-  std::vector<double> axes; ///< of each rotation where it was last within half a turn; zero: none
+  /// Axis of each rotation when it was last within half a turn; zero: none
+  std::vector<double> axes;
 };
 
-/// A guard that needs the ends of the steps alone: of a run in a march of several, too.
+/// Guard that needs only the ends of the steps; usable in a march of several runs.
 class EndGuard : public Follower {
 public:
   void judge(const Step& step) final { look(step); }
 
-  /// Throws SolverError where the step is proved wrong.
+  /// Checks a step. Throws SolverError if it is wrong.
   virtual void look(const StepEnd& end) = 0;
 };
 
-/// The guards of this kind that the options ask for. All arguments outlive the guards.
+/// End guards that the options select. All arguments must outlive the guards.
 std::vector<std::unique_ptr<EndGuard>> make_end_guards(const system::Regime& system,
                                                        const SolverOptions& options);
 
-/// Part of the energy exchanged that may be missing; 0: the energy is not judged.
+/// Allowed part of the energy exchanged that may be missing; 0: no energy guard.
 double allowed_energy(const SolverOptions& options);
 
-/// All guards that the options ask for. Each ends a run only on proof of failure: energy made or
-/// lost, positions whose rounding hides the tolerance, velocities that jump, constraints that
-/// drift, friction that leaves no accelerations, rotation vectors that lose their meaning.
+/// Guards that the options select. Each ends a run only on proof of failure: energy produced or
+/// lost, rounding above the tolerance, jumping velocities, drifting constraints, friction without
+/// accelerations, rotation vectors without an axis.
 class Guards : public Follower {
 public:
-  /// @param pattern of the rows that hold; like `system` and `options`, it outlives the guards,
-  ///   which follow its changes
-  /// @param y pose of the start
+  /// @param pattern  pattern of the rows that hold; like `system` and `options` it must outlive the
+  /// guards, which follow its changes
+  /// @param y  pose at the start
   Guards(const system::Regime& system, const system::Pattern& pattern, const SolverOptions& options,
          const VectorX& y);
 
@@ -64,7 +65,7 @@ private:
   std::vector<std::unique_ptr<Follower>> list_;
 };
 
-/// The arguments of the functions that make a guard.
+/// Arguments of the functions that make a guard.
 struct GuardInputs {
   const system::Regime& system;
   const system::Pattern& pattern;
@@ -72,7 +73,7 @@ struct GuardInputs {
   PoseWatch& poses;
 };
 
-// Functions that make a guard. Null: it has nothing to look at in this scene.
+// Functions that make a guard; null: the scene needs no such guard.
 std::unique_ptr<Follower> make_energy_guard(const GuardInputs& in);
 std::unique_ptr<Follower> make_drift_guard(const GuardInputs& in);
 std::unique_ptr<EndGuard> make_branch_guard(const system::Regime& system,
@@ -80,17 +81,18 @@ std::unique_ptr<EndGuard> make_branch_guard(const system::Regime& system,
 std::unique_ptr<EndGuard> make_turn_guard(const system::Regime& system,
                                           const SolverOptions& options);
 
-/// Does the energy guard allow less at singular poses of closed loops than elsewhere?
+/// Returns whether the energy guard allows less at singular poses of closed loops than elsewhere.
 bool energy_minds_singular_poses(const SolverOptions& options);
 
-/// May the formulation let the constraints drift, unless the drift is wanted (`--force`)?
+/// Returns whether constraints may drift in this formulation and the drift is not wanted
+/// (`--force`).
 bool minds_drift(const system::Regime& system, const SolverOptions& options);
 
-/// Energy of errors within the tolerance [J]: an exchange of less is not judged.
-/// @param mechanism whose bodies count; -1: all bodies
+/// Energy of errors within the tolerance [J]; a smaller exchange is not judged.
+/// @param mechanism  mechanism whose bodies count; -1: all bodies
 double energy_of_errors(const system::Regime& system, double rtol, int mechanism = -1);
 
-/// "largest reactions ..." at y, as a further line of a message; empty without constraints.
+/// Message line "largest reactions ..." at y; empty without constraints.
 std::string largest_reactions(const system::Regime& system, const VectorX& y);
 
 } // namespace hydrodae::run

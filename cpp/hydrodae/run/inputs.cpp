@@ -34,7 +34,8 @@ std::string static_name(const system::Regime& s, const system::SwitchData& frict
   return "forces/" + list.laws->names[static_cast<std::size_t>(friction.law)] + "/static";
 }
 
-/// What dry friction holds: with it a controller locks a joint where it stands still, and lets go.
+/// Inputs for the largest load of dry friction: a controller can lock a joint at rest and release
+/// it.
 void add_frictions(system::Regime& s, std::vector<Input>& out) {
   for (const system::SwitchData& friction : s.switches) {
     if (friction.kind != system::SwitchData::Kind::friction)
@@ -45,8 +46,9 @@ void add_frictions(system::Regime& s, std::vector<Input>& out) {
   }
 }
 
-/// A rate that jumps takes the velocities with it at once, by an impulse of all rows. Stops that
-/// push only, and friction that slips, would have to be asked first.
+/// Inputs for prescribed rates. A jump of a rate changes the velocities by an impulse of all rows,
+/// so scenes with stops or friction have no such input: their switches would have to be solved,
+/// too.
 void add_rates(system::Regime& s, std::vector<Input>& out) {
   if (!s.switches.empty())
     return;

@@ -20,8 +20,8 @@ bool MethodAtWork::approaches_events() const {
   return method_traits(problem_.options.method).coarse_inside || problem_.options.step > 0.0;
 }
 
-/// Of the next method where this one cannot start there. Samples of formulations that drift show
-/// their drift.
+/// Makes the integrator, or that of the next method if this one cannot start. Samples of drifting
+/// formulations are not closed, so that they show the drift.
 void MethodAtWork::make(const Instant& at) {
   const system::Regime& regime = problem_.regime;
   for (;;) {
@@ -84,8 +84,8 @@ linalg::Statistics MethodAtWork::statistics() const {
   return all;
 }
 
-/// Of all methods so far, as far as they are counted: those of an integrator that is made again,
-/// after an event or a saved state, go on from those before.
+/// Operations of all methods so far. The counts of an integrator that is made again, after an event
+/// or a saved state, continue.
 double MethodAtWork::operations() const {
   const linalg::Statistics s = statistics();
   const auto entries = static_cast<double>(problem_.pattern.row.size());
@@ -93,8 +93,8 @@ double MethodAtWork::operations() const {
                                     linalg::of_jacobian * static_cast<double>(s.jacobian_calls));
 }
 
-/// Of one step of explicit_rk: at each stage a residual, and a Jacobian of the mass matrix and the
-/// constraint rows alone.
+/// Operations of one step of explicit_rk: for each stage a residual, and a Jacobian of the mass
+/// matrix and the constraint rows.
 double MethodAtWork::operations_of_explicit_step() const {
   constexpr double evaluations = 13.0; // 12 stages of order 8, and the end of the step
   const system::Regime& s = problem_.regime;
@@ -112,14 +112,14 @@ double MethodAtWork::operations_of_explicit_step() const {
                         linalg::of_jacobian * entries);
 }
 
-/// The counts of this integrator end here, as those of any other.
+/// Saves the total counts, those of this integrator included.
 void MethodAtWork::save(State& out) const {
   out.done = statistics();
   out.methods = choice_.state();
   out.method = integrator_->state();
 }
 
-/// The pattern is that of the state, the rows of the regime, too.
+/// Restores the counts; the pattern and the rows of the regime must be those of the state.
 void MethodAtWork::set(const State& from) {
   before_ = from.done;
   choice_.set(from.methods);

@@ -1,5 +1,5 @@
 #pragma once
-/// The method that makes the steps of a run, and how another one takes over.
+/// Integration method of a run, and its replacement by another one.
 
 #include <memory>
 #include <optional>
@@ -14,32 +14,33 @@ namespace hydrodae::run {
 
 class MethodAtWork : public Follower {
 public:
-  /// Chosen by the start where the method is "auto". The options of the problem are those of the
-  /// method at work.
+  /// Method for the start; "auto" chooses it. The options of the problem become those of the
+  /// method.
   MethodAtWork(Problem& problem, const Instant& start);
 
   integrate::Integrator& integrator() { return *integrator_; }
   const integrate::Integrator& integrator() const { return *integrator_; }
   const MethodChoice& choice() const { return choice_; }
-  integrate::SampleClosing* closing() { return closing_.get(); } ///< null: no rows, or they drift
+  /// Null: no rows, or drifting rows
+  integrate::SampleClosing* closing() { return closing_.get(); }
 
-  /// Do its steps end at events, since its polynomial inside a step is of a lower order, or its
-  /// steps are fixed?
+  /// Returns whether steps end at events, because the polynomial inside a step is of lower order or
+  /// the steps are fixed.
   bool approaches_events() const;
 
-  /// Another integrator goes on; the counts of this one stay.
+  /// Makes a new integrator; the counts of the old one are kept.
   void renew(const Instant& at);
 
-  /// The method goes on from y, y', which have the layout of the last step.
+  /// Continues from y, y' in the layout of the last step.
   void restart_at(const Instant& at);
 
-  /// The next method goes on from an accepted instant.
+  /// Continues with the next method from an accepted instant.
   void change(const MethodChange& change, const Instant& at);
 
-  /// The change to a method that makes the steps with less work, if there is one.
+  /// Change to a cheaper method, if there is one.
   std::optional<MethodChange> cheaper(const Instant& at);
 
-  /// The closing knows on which turn the angles are.
+  /// Sets the turns of the angles for the closing of samples.
   void judge(const Step& step) override;
 
   /// The step is weighed.
@@ -58,7 +59,7 @@ private:
 
   Problem& problem_;
   MethodChoice choice_;
-  linalg::Statistics before_; ///< of the integrators before this one
+  linalg::Statistics before_; ///< statistics of the integrators before this one
   std::unique_ptr<integrate::Integrator> integrator_;
   std::unique_ptr<integrate::SampleClosing> closing_;
 };

@@ -19,7 +19,7 @@ constexpr double safety = 0.8;      ///< of that, where the step control rejects
 constexpr double enough = 1.5;      ///< operations over those promised; counts are this good
 constexpr double look = 500.0;      ///< evaluations between two looks at the fastest rate, of 14
 
-/// Is there anything but joints, weights and constant loads in each group of bodies?
+/// Returns whether every group of bodies has more than joints, weights and constant loads.
 bool may_damp(const system::Regime& s) {
   std::vector<bool> damped(static_cast<std::size_t>(s.n_groups));
   const auto mark = [&](const system::BodyData* body) {
@@ -150,7 +150,7 @@ MethodChange MethodChoice::after(const SolverError& error, MethodChange::Cause c
   if (more())
     return change;
   Halt halt = error.halt;
-  halt.advice.clear(); // it names other methods
+  halt.advice.clear(); // the advice names other methods
   halt.what = "no method of \"auto\" goes on: ";
   for (const MethodChange& c : state_.changes)
     if (c.cause != MethodChange::Cause::cost)

@@ -1,6 +1,6 @@
 #pragma once
-/// `solver.method = "auto"`: with which method a scene begins, and which follow where that one
-/// cannot go on.
+/// Choice by `solver.method = "auto"`: the first method of a scene, and those that replace it if it
+/// fails.
 
 #include <functional>
 #include <optional>
@@ -13,24 +13,24 @@
 
 namespace hydrodae::run {
 
-/// What decides about the method of a scene.
+/// Properties of a scene that decide on its method.
 struct SceneTraits {
-  double fastest_rate = 0.0; ///< of the equations linearised at the start [1/s]
-  double motion_rate = 0.0;  ///< at which the bodies move there [1/s]
+  double fastest_rate = 0.0; ///< fastest rate of the equations, linearised at the start [1/s]
+  double motion_rate = 0.0;  ///< rate of motion of the bodies at the start [1/s]
   double end_time = 0.0;     ///< [s]
-  bool damped = false;       ///< energy may be taken out of the motion of every group of bodies
-  std::string costly;        ///< what is expensive to evaluate, in words; empty: nothing
+  bool damped = false;       ///< true: forces may dissipate energy in every group of bodies
+  std::string costly;        ///< expensive part of the evaluation, for messages; empty: none
 };
 
-/// Methods in the order in which they are tried, and why the first is the first.
+/// Methods in the order of trial, and the reason for the first one.
 struct MethodOrder {
   std::vector<std::string> methods;
   std::string reason;
   bool weighs = false; ///< do explicit_rk and radau change places where the other is cheaper?
 };
 
-/// The choice, by what the stability map, the attack suite and the charts of tests/ show. radau
-/// takes every scene there that any method takes; it is not always the cheapest:
+/// Order of the methods. radau takes every scene that any method takes in the stability map, the
+/// attack suite and the charts of tests/, but is not always the cheapest:
 ///
 /// - Where nothing is stiff, explicit_rk has the cheapest digits, up to four times as cheap; after
 ///   it comes radau, then ida.
@@ -45,11 +45,11 @@ struct MethodOrder {
 ///   to 100 times smaller, so that it lasts through runs of more than 2000 radians.
 MethodOrder order_methods(const SceneTraits& traits);
 
-/// Of a scene at its start, where y, y' are consistent.
+/// Traits of a scene at its start, with consistent y, y'.
 SceneTraits find_traits(const system::Regime& system, const system::Pattern& pattern,
                         const SolverOptions& options, const VectorX& y, const VectorX& yp);
 
-/// The decision to leave a method for the next one of the order.
+/// Decision to replace a method by the next one of the order.
 struct MethodChange {
   enum class Cause {
     cost,  ///< the other method has less work, or is tried
@@ -63,10 +63,10 @@ struct MethodChange {
   std::string to;     ///< the one that follows
 };
 
-/// "radau gave up: the step has become too short"; a decision on costs by its reason alone.
+/// Message "radau gave up: the step has become too short"; for a decision on costs, its reason.
 std::string in_words(const MethodChange& change);
 
-/// "radau at t = 1.5 s: the step has become too short"
+/// Message "radau at t = 1.5 s: the step has become too short".
 std::string with_time(const MethodChange& change);
 
 /// The method at work in a run, those before it and those that are left. A method that could not
@@ -84,16 +84,16 @@ std::string with_time(const MethodChange& change);
 /// operations of this one have been made, then twice as many each time.
 class MethodChoice {
 public:
-  /// The one of that name; none is left.
+  /// Single method of this name.
   explicit MethodChoice(std::string method);
 
-  /// Those of an order, from the first on.
+  /// Methods of an order, beginning with the first.
   explicit MethodChoice(MethodOrder order);
 
   const std::string& method() const { return candidates_[state_.at]; }
   const MethodOrder& order() const { return order_; }
 
-  /// Was it chosen, rather than named?
+  /// Returns whether "auto" chose the method.
   bool chosen() const { return order_.methods.size() > 1; }
 
   /// Is there another method to go on with where this one stops?
@@ -103,8 +103,8 @@ public:
   /// weighed; else with the first of the order that is left, of which there must be one.
   void next(const MethodChange& change);
 
-  /// The change that follows from an error of the method at work. Throws SolverError where no
-  /// method is left, with all that were tried.
+  /// Change after an error of the present method. Throws SolverError with the list of tried methods
+  /// if none is left.
   MethodChange after(const SolverError& error, MethodChange::Cause cause) const;
 
   /// Takes an accepted step of the length h [s], after so many operations since the start of the
@@ -163,8 +163,8 @@ private:
   State state_;
 };
 
-/// "auto: explicit_rk (nothing is stiff), radau from t = 1.2 s because ..."; a method that was
-/// named by its name alone.
+/// Message "auto: explicit_rk (nothing is stiff), radau from t = 1.2 s because ..."; for a method
+/// set by name, its name.
 std::string in_words(const MethodChoice& choice);
 
 } // namespace hydrodae::run

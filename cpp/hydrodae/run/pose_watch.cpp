@@ -13,10 +13,12 @@ namespace hydrodae::run {
 
 namespace {
 
-constexpr double singular = 1e-2; ///< of the best independence of the rows seen
-constexpr double in_line = 0.1;   ///< of the best pivot: an eigenvalue is the square of a sine
+/// Independence of the rows at a singular pose, relative to the best seen
+constexpr double singular = 1e-2;
+/// Pivot of aligned rows, relative to the best: an eigenvalue is the square of a sine
+constexpr double in_line = 0.1;
 
-/// (n_lambda,) The mechanism of each constraint row.
+/// Mechanism of each constraint row (n_lambda,).
 std::vector<int> row_mechanisms(const system::Regime& s) {
   std::vector<int> out(static_cast<std::size_t>(s.n_lambda));
   const auto take = [&](const system::JointData& j, Index lambda) {
@@ -52,7 +54,7 @@ bool has_loop(const system::Regime& s) {
   auto place = [&](int body) {
     return body < 0 || s.bodies[static_cast<std::size_t>(body)].n_active == 0 ? ground : body;
   };
-  // A body that keeps two coordinates at most is guided by the ground.
+  // The ground guides a body with at most two coordinates.
   for (std::size_t i = 0; i < s.bodies.size(); ++i)
     if (s.bodies[i].n_active <= 2)
       root[i] = ground;
@@ -67,7 +69,7 @@ bool has_loop(const system::Regime& s) {
   return false;
 }
 
-/// The constraint rows that hold now, in any formulation, and their solver.
+/// Constraint rows that hold now, in any formulation, and their solver.
 struct PoseWatch::Rows {
   explicit Rows(const system::Regime& s)
       : system(stabilised(s)), pattern(system::find_pattern(system)),
@@ -77,7 +79,7 @@ struct PoseWatch::Rows {
   system::Pattern pattern;
   linalg::Equations equations;
   linalg::SaddlePoint saddle;
-  std::vector<int> mechanism; ///< of each row (n_lambda,)
+  std::vector<int> mechanism; ///< mechanism of each row (n_lambda,)
 };
 
 PoseWatch::PoseWatch(const system::Regime& s, const SolverOptions& options, const VectorX& y,

@@ -1,5 +1,5 @@
 #pragma once
-/// Singular poses of closed loops, for the guards that allow less there.
+/// Singular poses of closed loops, for guards with stricter limits there.
 
 #include <memory>
 
@@ -11,34 +11,34 @@ namespace hydrodae::run {
 
 struct Step;
 
-/// Decides whether a step was at or next to a singular pose of a closed loop. There the constraint
-/// rows of a mechanism are a hundred times nearer to dependence on each other than in its best pose
-/// seen, as the masses feel it. By geometry alone they are near it, too: light bars between heavy
-/// ones look dependent in any pose. Rows that always follow from others are thus no singular pose.
-/// Scenes without loops have nothing to watch.
+/// Decides whether a step was at or near a singular pose of a closed loop. The constraint rows of a
+/// mechanism are there a hundred times closer to linear dependence than in its best pose so far, in
+/// the metric of the masses. They must be close by geometry alone, too: light bars between heavy
+/// ones look dependent in any pose. Redundant rows are thus no singular pose. Scenes without loops
+/// need no watch.
 class PoseWatch {
 public:
-  /// @param options whose method makes the steps; they outlive the watch, which follows changes
-  /// @param y pose of the start, taken for a regular one
-  /// @param wanted some guard will ask
+  /// @param options  options of the method; they must outlive the watch, which follows changes
+  /// @param y  pose at the start, assumed regular
+  /// @param wanted  true: a guard needs the watch
   PoseWatch(const system::Regime& system, const SolverOptions& options, const VectorX& y,
             bool wanted);
   ~PoseWatch();
 
-  /// Of short steps one in four is looked at, since the way through such a pose takes more; long
-  /// ones are looked at inside, too.
+  /// Returns whether the step is near a singular pose. One in four short steps is checked, because
+  /// passing such a pose takes more; long steps are also checked inside.
   bool near_singular(const Step& step);
 
-  /// Adds to `halt`, of a step that cannot be made next to a singular pose, what to do about it.
+  /// Adds advice to `halt`, for a step that failed near a singular pose.
   Halt with_remedy(Halt halt, double t, const VectorX& y, const VectorX& yp);
 
-  /// Other rows hold from now on; takes the pose of y for a regular one.
+  /// Restarts with other rows; the pose of y is assumed regular.
   void restart(const VectorX& y);
 
   struct State {
-    VectorX best;        ///< independence of the rows in the best pose seen, by mechanism
-    VectorX best_pivots; ///< least pivots of the rows in the best pose seen, by mechanism
-    long asked = 0;      ///< times that a singular pose would have mattered
+    VectorX best;        ///< best independence of the rows so far, by mechanism
+    VectorX best_pivots; ///< least pivots of the rows in the best pose so far, by mechanism
+    long asked = 0;      ///< number of times that a singular pose would have mattered
   };
   const State& state() const { return state_; }
   void set(State state) { state_ = std::move(state); }
@@ -58,10 +58,10 @@ private:
   VectorX y_, yp_; ///< scratch
 };
 
-/// Do the joints close a loop through moving bodies and the ground?
+/// Returns whether joints close a loop through moving bodies and the ground.
 bool has_loop(const system::Regime& system);
 
-/// The same equations with both levels of the constraints as rows.
+/// Regime with both levels of the constraints as rows.
 system::Regime stabilised(system::Regime system);
 
 } // namespace hydrodae::run

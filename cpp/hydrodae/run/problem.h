@@ -1,5 +1,5 @@
 #pragma once
-/// A scene as equations with a consistent start.
+/// Scene as equations with a consistent start.
 
 #include <memory>
 #include <string>
@@ -11,36 +11,37 @@
 
 namespace hydrodae::run {
 
-/// An instant of a run.
+/// Instant of a run.
 struct Instant {
   double t = 0.0; ///< [s]
   VectorX y, yp;  ///< unknowns of the rows that hold, and their rates
 };
 
-/// The system never changes; what holds of it, and where its entries are, changes at events.
+/// Equations of a scene. The system never changes; the regime, and the layout of its entries,
+/// change at events.
 struct Problem {
-  /// Throws ModelError or SolverError when the scene cannot start.
+  /// Throws ModelError or SolverError if the scene cannot start.
   explicit Problem(model::Scene given);
   Problem(const Problem&) = delete;
   Problem& operator=(const Problem&) = delete;
 
-  /// The start is found on the stabilised equations; then the formulation may change, and the past
-  /// begins where the scene depends on it, which limits the steps.
+  /// Sets the formulation and begins the past, which limits the steps, from a start that was found
+  /// on the stabilised equations.
   void begin(const Instant& start);
 
-  /// Which scene this is: digest of text, overrides and version, then `model::text_of_files`.
+  /// Fingerprint of the scene: digest of text, overrides and version, then `model::text_of_files`.
   const std::string& fingerprint();
 
-  /// Throws CaseError that names what differs from the scene of this fingerprint.
+  /// Throws CaseError with the differences from the scene of this fingerprint.
   void require_same(const std::string& other);
 
   model::Scene scene;
-  SolverOptions options; ///< of the method at work; steps as a history carries them
+  SolverOptions options; ///< options of the present method, with steps that the history allows
   Instant start;
-  system::Pattern pattern; ///< of the rows that hold
+  system::Pattern pattern; ///< pattern of the rows that hold
   const system::System system;
-  system::Regime regime{system};            ///< what holds now
-  std::unique_ptr<system::History> history; ///< where loads depend on the past
+  system::Regime regime{system};            ///< rows and values that hold now
+  std::unique_ptr<system::History> history; ///< past; null if no load depends on it
   std::vector<std::string> notes{system.notes};
 
 private:
@@ -48,7 +49,7 @@ private:
   static Found find(const model::Scene& scene);
   Problem(Found found, model::Scene&& given);
 
-  std::string fingerprint_; ///< empty: not asked for yet
+  std::string fingerprint_; ///< fingerprint; empty: not computed yet
 };
 
 } // namespace hydrodae::run

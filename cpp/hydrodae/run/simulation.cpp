@@ -13,7 +13,7 @@ namespace hydrodae::run {
 
 namespace {
 
-/// Adds the wall time of its life to a sum [s].
+/// Stopwatch that adds the wall time of its life to a sum [s].
 class Watch {
 public:
   explicit Watch(double& sum) : sum_(sum) {}
@@ -27,7 +27,7 @@ private:
   Clock::time_point start_ = Clock::now();
 };
 
-/// The problem with the start that its events have left, from which its past begins.
+/// Problem with the start that its initial events have left; its past begins there.
 Problem& begun(Problem& problem, const Instant& start) {
   problem.begin(start);
   return problem;
@@ -62,7 +62,7 @@ void Simulation::advance(double limit, const Inside& inside) {
   require_going();
   ask_controllers();
   standing_.row.clear();
-  standing_.failed = true; // until the step is accepted by all
+  standing_.failed = true; // until all followers have accepted the step
   const Step made = take_step(controllers_.limit(std::min(limit, problem_.options.end_time)));
   if (inside)
     inside();
@@ -81,8 +81,8 @@ void Simulation::require_going() const {
         {Reason::state, "the run has stopped; it goes on from a state that is restored only"});
 }
 
-/// Controllers that are due see the motion, and act on it: twice, where what was written has made
-/// one due.
+/// Samples the due controllers and applies their outputs; twice, because a new output may make one
+/// due.
 void Simulation::ask_controllers() {
   for (int k = 0; k < 2; ++k) {
     take_control();
@@ -94,11 +94,11 @@ void Simulation::take_control() {
   if (!controllers_.is_due(now_.t, course_.event_here))
     return;
   take_inputs();
-  standing_.failed = true; // until all have answered
+  standing_.failed = true; // until all controllers have answered
   course_.control_since = now_.t;
   if (controllers_.act(now_.t, course_.event_here, row_now()))
     standing_.written = true;
-  constexpr double far = 100.0; // levers or rad: no device is meant to go there
+  constexpr double far = 100.0; // levers or rad, beyond the range of any device
   if (const VectorX& reached = scale_.reached(); reached.size() > 0 && reached.maxCoeff() > far)
     if (const std::string why = controllers_.runaway(); !why.empty())
       throw SolverError(now_.t, {Reason::growth, why});
@@ -106,20 +106,20 @@ void Simulation::take_control() {
   standing_.failed = false;
 }
 
-/// Before the motion goes on, or is looked at: accelerations that belong to the inputs.
+/// Updates the accelerations after inputs were written, before the motion continues or is read.
 void Simulation::take_inputs() {
   if (!standing_.written)
     return;
   require_going();
   standing_.written = false;
   standing_.row.clear();
-  standing_.failed = true; // until there are accelerations
+  standing_.failed = true; // until accelerations are found
   restart();
   standing_.failed = false;
 }
 
-/// One step that no follower proves wrong, and what it adds to the sums. Under "auto" the next
-/// method makes a step that is.
+/// Makes one step that all followers accept, and adds it to the sums. Under "auto" the next method
+/// repeats a rejected step.
 Step Simulation::take_step(double end) {
   for (;;) {
     const Step made = make_step(end);
@@ -139,7 +139,7 @@ Step Simulation::take_step(double end) {
   }
 }
 
-/// One step, cut short where a stop or dry friction changes.
+/// Makes one step, which ends early where a stop or dry friction changes.
 Step Simulation::make_step(double end) {
   const Watch watch(standing_.solver_time);
   const SolverOptions& options = problem_.options;
@@ -152,8 +152,7 @@ Step Simulation::make_step(double end) {
       integrator().interpolate(now_.t, standing_.before.y, standing_.before.yp);
     const double bound = bound_of_step(), kink = next_kink();
     try {
-      // Fixed steps keep their length whatever is known ahead, but end at an event that was found,
-      // and where the past jumps.
+      // Fixed steps keep their length, but end at a located event and at jumps of the past.
       const double known = scene().solver.step > 0.0 ? course_.event_near : INFINITY;
       now_.t = integrator().step(std::min({end, kink, known}), std::min(bound, kink));
     } catch (const SolverError& error) {
@@ -193,13 +192,13 @@ double Simulation::bound_of_step() {
   return bound_.find({now_.t, measure_.turns(), integrator(), controllers_.next_time()}, course_);
 }
 
-/// Where the past jumps, as a method of the order of the last step notices it [s].
+/// Next jump of the past [s], for a method of the order of the last step.
 double Simulation::next_kink() {
   return problem_.history ? problem_.history->next_kink(integrator().statistics().last_order)
                           : INFINITY;
 }
 
-/// Takes the last step back, and lets the next ones end at the event.
+/// Undoes the last step, so that the next ones end at the event.
 void Simulation::approach(double event) {
   course_.event_near = event;
   now_ = standing_.before;
@@ -207,8 +206,8 @@ void Simulation::approach(double event) {
   method_.restart_at(now_);
 }
 
-/// A step has failed. Does a load that sets in here ask for tolerances of a larger motion than
-/// there was so far? Then the method goes on from the last accepted instant with these.
+/// Returns whether a load that sets in here needs tolerances for a larger motion. If so, the method
+/// continues from the last accepted instant with them.
 bool Simulation::begins_to_move() {
   double time = std::abs(now_.t);
   for (const system::BodyData& b : system().bodies)
@@ -217,18 +216,18 @@ bool Simulation::begins_to_move() {
   VectorX y = now_.y, yp = now_.yp;
   if (!events_.restore(later, y, yp) || !scale_.begin_again(problem_.pattern, later, y, yp))
     return false;
-  method_.renew(now_); // with a first step of its own: that of the failed one has no length left
+  method_.renew(now_); // with a new first step: that of the failed one is almost zero
   return true;
 }
 
-/// The next method goes on from the last accepted instant. What the guards have seen stays.
+/// Continues with the next method from the last accepted instant; the state of the guards is kept.
 void Simulation::change_method(const MethodChange& change) {
   course_.event_near = INFINITY;
   events_.follow(measure_.turns());
   method_.change(change, now_);
 }
 
-/// The work over the step: by the stages of the method, if it can and there are no samples.
+/// Sums the work over the step, with the stages of the method if it can and there are no samples.
 void Simulation::measure_step() {
   const auto at = [this](double t, VectorX& y, VectorX& yp) { integrator().look_inside(t, y, yp); };
   const std::span<const double> weights = integrator().stage_weights();
@@ -242,15 +241,15 @@ void Simulation::measure_step() {
   measure_.begin(now_.t, weights, stage, at);
 }
 
-/// Does the step, its start among it, hold an output sample? By the case alone, so that the sums of
-/// a run are the same whoever drives it.
+/// Returns whether the step, including its start, contains an output sample. The case alone
+/// decides, so that the sums of a run do not depend on the caller.
 bool Simulation::has_samples() const {
-  constexpr double rounding = 1e-12; // of the times of samples and steps
+  constexpr double rounding = 1e-12; // rounding of the times of samples and steps
   const double dt = scene().output.step;
   return std::ceil(course_.step_start / dt * (1.0 - rounding)) * dt <= now_.t * (1.0 + rounding);
 }
 
-/// The rule by which the work over the coming step is summed.
+/// Chooses the quadrature of the work over the coming step.
 void Simulation::choose_quadrature() {
   const int nodes = integrator().quadrature_nodes();
   if (nodes == course_.quadrature_nodes)
@@ -261,7 +260,7 @@ void Simulation::choose_quadrature() {
   measure_.set_quadrature({{rule.c.begin(), rule.c.end()}, {rule.b.begin(), rule.b.end()}});
 }
 
-/// Goes on from an event, or with other inputs, by the rows and loads that hold from now on.
+/// Continues after an event or a change of inputs, with the rows and loads that now hold.
 void Simulation::restart() {
   const Watch watch(standing_.solver_time);
   events_.follow(measure_.turns());
@@ -270,7 +269,7 @@ void Simulation::restart() {
     follower->restart({now_.t, now_.y, now_.yp, work});
   if (finished())
     return;
-  if (events_.switching()) // rows come and go
+  if (events_.switching()) // rows may be added or removed
     method_.renew(now_);
   else
     method_.restart_at(now_);
@@ -317,7 +316,8 @@ void Simulation::set(const State& state) {
   if (state.switching.has_value() != (switching() != nullptr) ||
       state.history.has_value() != (problem_.history != nullptr))
     throw Error("the state has other parts than the scene");
-  standing_ = {{}, false, false, true, {}, standing_.solver_time}; // failed until all is restored
+  // failed until all parts are restored
+  standing_ = {{}, false, false, true, {}, standing_.solver_time};
   now_ = {state.time, state.y, state.yp};
   course_ = state.course;
   problem_.regime.set(state.held);
@@ -360,7 +360,7 @@ Channels::Counts Simulation::counts() const {
   return {method_.integrator().statistics(), switching(), controllers_.held()};
 }
 
-/// All channels now.
+/// Values of all channels now.
 std::span<const double> Simulation::row_now() {
   std::vector<double>& row = standing_.row;
   if (row.empty()) {

@@ -9,7 +9,7 @@ namespace hydrodae::run {
 namespace {
 
 constexpr std::string_view head = "hydrodae state 2\n";
-constexpr std::size_t digest_size = 64; ///< of the SHA-256 at the end
+constexpr std::size_t digest_size = 64; ///< length of the SHA-256 digest at the end
 
 } // namespace
 

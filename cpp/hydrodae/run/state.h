@@ -1,5 +1,5 @@
 #pragma once
-/// All that a run is at an accepted instant, as a value: copied is saved.
+/// State of a run at an accepted instant, as a value: a copy saves it.
 
 #include <optional>
 #include <string>
@@ -18,25 +18,25 @@
 
 namespace hydrodae::run {
 
-/// Where the run is between its steps.
+/// Progress of the run between its steps.
 struct Course {
-  double step_start = 0.0, last_start = 0.0; ///< of the last two steps [s]
-  double event_near = INFINITY;              ///< where the next steps end [s]
-  bool event_here = false;                   ///< the last step has ended in an event
+  double step_start = 0.0, last_start = 0.0; ///< starts of the last two steps [s]
+  double event_near = INFINITY;              ///< event at which the next steps end [s]
+  bool event_here = false;                   ///< true: the last step ended in an event
   int quadrature_nodes = 3;
-  int highest_order = 1;      ///< of the steps so far
-  double control_since = 0.0; ///< when controllers acted last [s]
+  int highest_order = 1;      ///< highest order of the steps so far
+  double control_since = 0.0; ///< time of the last action of controllers [s]
 };
 
 struct State {
   double time = 0.0; ///< [s]
   VectorX y, yp;     ///< unknowns of the rows that hold, and their rates
-  std::string scene; ///< of which case it is (fingerprint)
+  std::string scene; ///< fingerprint of the case
   system::Held held; ///< modes of the switches, inputs, signals, scales
   Course course;
-  linalg::Statistics done; ///< what all integrators so far have done
+  linalg::Statistics done; ///< statistics of all integrators so far
   MethodChoice::State methods;
-  integrate::Memory method; ///< of the one at work
+  integrate::Memory method; ///< memory of the present method
   measure::Measure::State measure;
   system::MotionScale::State scales;
   std::optional<system::History::State> history;
@@ -45,7 +45,7 @@ struct State {
   GuardStates guards;
   Controllers::State controllers;
 
-  /// As bytes, of this kind of machine. `from_bytes` throws Error where they are no state.
+  /// State as bytes, for this kind of machine. `from_bytes` throws Error for other bytes.
   std::string bytes() const;
   static State from_bytes(const std::string& bytes);
 
@@ -53,10 +53,10 @@ struct State {
 };
 static_assert(std::is_aggregate_v<State> && std::is_copy_constructible_v<State>);
 
-/// A value as bytes with a head and a digest, so that other bytes are not taken for it.
+/// Bytes with a head and a digest, which identify them.
 std::string sealed(const std::string& bytes);
 
-/// The bytes that were sealed. Throws Error where they are not.
+/// Bytes without head and digest. Throws Error if these do not match.
 std::string unsealed(const std::string& bytes);
 
 } // namespace hydrodae::run

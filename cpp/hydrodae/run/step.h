@@ -1,5 +1,5 @@
 #pragma once
-/// A step that a method has made, and what all have in common who look at it.
+/// Step of a method, and the interface of objects that follow all steps.
 
 #include <optional>
 
@@ -10,56 +10,55 @@ namespace hydrodae::run {
 
 struct State;
 
-/// The end of the step that was made last.
+/// End of the last step.
 struct StepEnd {
   double start = 0.0, end = 0.0; ///< [s]
-  bool event = false;            ///< rows of the system come or go at the end
-  const VectorX& y;              ///< at the end; after an event those that go on from there
+  bool event = false;            ///< true: rows of the system change at the end
+  const VectorX& y;              ///< unknowns at the end; after an event those that continue
   const VectorX& yp;
-  const system::Turns& turns; ///< of the angles at the end
+  const system::Turns& turns; ///< turns of the angles at the end
 };
 
-/// The whole step.
+/// Complete step.
 struct Step : StepEnd {
-  integrate::Integrator& integrator; ///< gives y, y' inside the step
+  integrate::Integrator& integrator; ///< integrator, for y, y' inside the step
   const measure::Measure& measure;
-  bool may_change = false; ///< another method can make the step again
-  bool own = false;        ///< the method chose its end
+  bool may_change = false; ///< true: another method can repeat the step
+  bool own = false;        ///< true: the method chose the end
 };
 
-/// What holds from an accepted instant on, where other rows or loads do.
+/// Restart from an accepted instant with other rows or loads.
 struct Restart {
   double t = 0.0; ///< [s]
   const VectorX& y;
   const VectorX& yp;
-  std::optional<double> work; ///< of all rows through their impulses [J], where something struck
+  std::optional<double> work; ///< work of all rows through their impulses [J], after an impact
 };
 
-/// One of the list of those who look at every step. They are called in the order of the list, by
-/// the same names.
+/// Follower of all steps. Followers are called in the order of their list.
 class Follower {
 public:
   virtual ~Follower() = default;
 
-  /// Throws SolverError where the step is proved wrong: it does not count.
+  /// Checks a step. Throws SolverError to reject it.
   virtual void judge(const Step&) {}
 
-  /// The step counts.
+  /// Takes an accepted step.
   virtual void accept(const Step&) {}
 
-  /// Other rows or loads hold from the last accepted instant on.
+  /// Takes other rows or loads from the last accepted instant on.
   virtual void restart(const Restart&) {}
 
-  /// At the end of the run. Throws SolverError as `judge` does.
+  /// Takes the end of the run. Throws SolverError as `judge` does.
   virtual void finish(const Step&) {}
 
-  /// What the steps before have left, in its place of the state of the run.
+  /// Saves the state of the follower in its member of the state of the run.
   virtual void save(State&) const {}
   virtual void set(const State&) {}
 };
 
-/// A follower whose state stands in one member of the state of the run, optional where not all
-/// scenes have such a part.
+/// Follower whose state is one member of the state of the run; optional, because not all scenes
+/// have the part.
 template <auto place, class Part> class FollowerOf : public Follower {
 public:
   explicit FollowerOf(Part& part) : part_(part) {}

@@ -10,7 +10,7 @@ namespace hydrodae::run {
 
 namespace {
 
-/// Part of a step at its ends where the polynomial through the stages of radau is nearly exact.
+/// Part of a step at each end in which the polynomial through the stages of radau is nearly exact.
 constexpr double step_edge = 0.02;
 
 } // namespace
@@ -22,7 +22,7 @@ StepBound::StepBound(const Problem& problem, double looser)
 double StepBound::find(const From& from, Course& course) {
   const double t = from.t, longer = stretch(from.integrator, course);
   const system::Forcing::Limit limit = forcing_.limit(from.turns, from.integrator.gap(), longer);
-  if (course.event_near - t <= step_edge * (t - course.last_start)) // no sliver of a step
+  if (course.event_near - t <= step_edge * (t - course.last_start)) // avoids a tiny last step
     course.event_near = INFINITY;
   const double step = problem_.scene.solver.step;
   constexpr double too_long = 4.0;
@@ -34,14 +34,14 @@ double StepBound::find(const From& from, Course& course) {
                           {{"step", step}},
                           rounded_text(limit.time - t) + " s may do",
                           ""});
-  double other = INFINITY; // bounds that no longer step may pass
+  double other = INFINITY; // bounds that longer steps of this run must not pass
   if (problem_.history)
     other = t + problem_.history->longest_step();
   if (longer < 1.0) {
     if (problem_.options.max_step > 0.0)
       other = std::min(other, t + problem_.options.max_step);
     other = t + longer * (other - t);
-    // The step through the whole interval between two instants of controllers is split.
+    // A step over a whole interval between two instants of controllers is split.
     const double next = from.next_control, part = longer * (next - course.control_since);
     if (std::isfinite(part) && next - t > part)
       other = std::min(other, t + part);
@@ -49,9 +49,9 @@ double StepBound::find(const From& from, Course& course) {
   return std::min({limit.time, course.event_near, other});
 }
 
-/// Length of the steps over that of the run which this one is to judge, where something but the
-/// tolerance bounds them: as the error control would choose it, by the highest order so far (that
-/// of ida begins low).
+/// Ratio of step lengths to those of the run which this run checks, for steps not bounded by the
+/// tolerance. The ratio is that of the error control for the highest order so far (ida begins with
+/// a low order).
 double StepBound::stretch(const integrate::Integrator& integrator, Course& course) const {
   course.highest_order = std::max(course.highest_order, integrator.statistics().last_order);
   return looser_ == 1.0 ? 1.0 : std::pow(looser_, 1.0 / (course.highest_order + 1.0));

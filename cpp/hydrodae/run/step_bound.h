@@ -1,5 +1,5 @@
 #pragma once
-/// How far a step may go.
+/// Largest length of a step.
 
 #include "hydrodae/integrate/integrator.h"
 #include "hydrodae/run/problem.h"
@@ -8,31 +8,29 @@
 
 namespace hydrodae::run {
 
-/// No step may pass over what is known ahead of time, nor over an event that was found.
+/// Bound on steps from known loads and located events: no step passes over them.
 class StepBound {
 public:
-  /// @param looser tolerance over that of the run which this one is to judge; see Simulation
+  /// @param looser  tolerance relative to that of the run which this run checks; see Simulation
   StepBound(const Problem& problem, double looser);
 
-  /// How far the bodies will about be moved; see Forcing.
+  /// Expected motion of the bodies; see Forcing.
   const VectorX& motion() const { return forcing_.motion(); }
 
-  /// Where a step is from, and what knows how far it may go.
+  /// Start of a step, and the objects that limit it.
   struct From {
     double t = 0.0; ///< [s]
     const system::Turns& turns;
     const integrate::Integrator& integrator;
-    double next_control = INFINITY; ///< the next instant of a controller [s]
+    double next_control = INFINITY; ///< next instant of a controller [s]
   };
 
-  /// Time beyond which a step is not to go [s]. Throws SolverError for a fixed step that is too
-  /// long.
+  /// Latest end of the step [s]. Throws SolverError for a fixed step that is too long.
   double find(const From& from, Course& course);
 
-  /// Is a time in the middle of a step, where the polynomial is of a lower order than the end, so
-  /// that each event would leave its error? It is that through the stages of radau, or what fixed
-  /// steps have. A load that begins with the event, as of a rope that is caught and parts, has
-  /// changed the stages, too.
+  /// Returns whether t is in the middle of a step, where the polynomial is of lower order than at
+  /// the ends, so that events would leave its error: for stages of radau and fixed steps. A load
+  /// that begins with the event, such as a rope that parts, has also changed the stages.
   static bool is_inside(double start, double t, double end);
 
 private:

@@ -1,7 +1,6 @@
 #pragma once
-/// Detects a sampled loop that feeds itself: from some period or delay on, a held load puts energy
-/// in (docs/control.md), and the swings of what the controller holds grow by the same factor on and
-/// on.
+/// Detects a sampled control loop that feeds itself: above some period or delay, a held load adds
+/// energy (docs/control.md), and the swings of the output grow by a constant factor.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +12,7 @@ struct SwingWatch {
   double last = 0.0, peak = 0.0;
   std::deque<double> peaks; ///< largest value of each swing
 
-  /// The next answer.
+  /// Takes the next output.
   void add(double value) {
     if (value * last < 0.0) {
       peaks.push_back(peak);
@@ -27,12 +26,12 @@ struct SwingWatch {
   }
 
   struct Growth {
-    std::size_t swings = 0; ///< half a cycle each; 0: no such growth
+    std::size_t swings = 0; ///< number of swings, half a cycle each; 0: no growth
     double from = 0.0, to = 0.0;
   };
 
-  /// Growth by `much` over some swings, and by as much over as many before: what a ramp, or a group
-  /// of waves, brings slows down.
+  /// Growth by `much` over a number of swings, and by the same over as many before. A ramp or a
+  /// wave group grows more and more slowly.
   Growth growth() const {
     for (const std::size_t n : windows) {
       if (peaks.size() <= 2 * n)

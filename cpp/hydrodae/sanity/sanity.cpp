@@ -1,4 +1,4 @@
-/// Places and coordinates of the mechanism, lengths of ropes, and all findings together.
+/// Findings on places and coordinates of the mechanism and lengths of ropes; all findings together.
 
 #include "hydrodae/sanity/sanity.h"
 
@@ -21,7 +21,7 @@ namespace {
 
 constexpr double far = 3.0, very_far = 10.0; ///< distance of a joint, in sizes of the body
 
-/// Largest radius of gyration about the axes that a body turns about; about all if it does not [m].
+/// Largest radius of gyration about the rotation axes of a body [m]; about all for a fixed body.
 double gyration(const system::BodyData& b) {
   double largest = 0.0;
   for (int k = b.n_translations; k < b.n_active; ++k) {
@@ -33,9 +33,8 @@ double gyration(const system::BodyData& b) {
   return b.mass > 0.0 ? std::sqrt(largest / b.mass) : 0.0;
 }
 
-/// Size of a body: side of the cube of the volume that it displaces or that its mesh encloses, or
-/// radius of gyration, where larger; for dry bodies at least the extent of the scene. 0: not known
-/// [m].
+/// Size of a body [m]: side of a cube of its displaced or mesh volume, or radius of gyration if
+/// larger; for dry bodies at least the extent of the scene. 0: unknown.
 double size_of(const model::Scene& scene, const system::System& s, std::size_t i) {
   const system::BodyData& b = s.bodies[i];
   const double size = gyration(b);
@@ -52,8 +51,8 @@ double size_of(const model::Scene& scene, const system::System& s, std::size_t i
   return extent > 0.0 ? std::max(size, extent) : 0.0;
 }
 
-/// Distance of a marker from the centre of gravity of its body: of its axis where it may stand
-/// anywhere along it.
+/// Distance of a marker from the centre of gravity of its body; for a sliding joint, distance of
+/// its axis.
 double distance(const system::JointData& j, const joint::Marker& marker) {
   const auto slides = [&](int axis) {
     return std::any_of(j.type->motions.begin(), j.type->motions.end(),
@@ -105,7 +104,7 @@ void judge_depth(const model::Scene& scene, std::vector<Finding>& out) {
       judge("the point of joint " + in_quotes(joint.name), joint.point[2] + 1e-9 * depth);
 }
 
-/// Rate of a motion at velocities u (n_u,), and the largest that velocities of that size can give.
+/// Rate of a motion at velocities u (n_u,), and the largest rate for velocities of that size.
 std::pair<double, double> motion_rate(const system::System& s, const system::Workspace<double>& ws,
                                       int motion, const VectorX& u) {
   const system::JointData& j = system::joint_of(s, motion);
@@ -126,8 +125,8 @@ std::pair<double, double> motion_rate(const system::System& s, const system::Wor
   return {rate, most};
 }
 
-/// Random velocities that the constraints let pass, those that a drive moves too: a random vector
-/// less its part in the rows of the constraints. In units of the scales.
+/// Random velocities that the constraints allow, including those that a drive moves: a random
+/// vector without its part in the constraint rows, in units of the scales.
 VectorX allowed_velocities(const system::Regime& s, const VectorX& y, std::mt19937& random) {
   VectorX u(s.n_u);
   for (Index k = 0; k < s.n_u; ++k)
@@ -143,12 +142,12 @@ VectorX allowed_velocities(const system::Regime& s, const VectorX& y, std::mt199
   }
   build::SparseMatrix rows = acts.asDiagonal() * build::constraint_gradient(s, y);
   rows.prune(0.0);
-  for (int pass = 0; pass < 2; ++pass) // the second removes what the first leaves by rounding
+  for (int pass = 0; pass < 2; ++pass) // the second pass removes rounding errors of the first
     u -= build::smallest_solution(rows, rows * u);
   return u;
 }
 
-/// A pose beside the start that keeps the constraints, to distinguish a lock from a dead point.
+/// Pose near the start that keeps the constraints, to distinguish a lock from a dead point.
 VectorX pose_beside(const system::Regime& s, std::mt19937& random) {
   const VectorX start = system::initial_state(s), scale = build::displacement_scale(s);
   VectorX y = start, step(s.n_u);
@@ -158,7 +157,7 @@ VectorX pose_beside(const system::Regime& s, std::mt19937& random) {
   return build::close(s, y) ? y : start;
 }
 
-/// Forces along motions that cannot change, neither at the start nor beside it.
+/// Judges forces along motions that are locked at the start and near it.
 void judge_forces(const system::Regime& s, std::vector<Finding>& out) {
   std::vector<const system::PortData*> ports;
   system::for_each_law(s,
@@ -175,7 +174,7 @@ void judge_forces(const system::Regime& s, std::vector<Finding>& out) {
     const VectorX u = allowed_velocities(s, y, random);
     system::Workspace<double> ws(s);
     system::unpack<double>(s, y.data(), rest.data(), ws.bodies);
-    // What one unit of the scales gives shows which rates count.
+    // The rates for one unit of the scales show which ones count.
     for (std::size_t k = 0; k < ports.size(); ++k) {
       const double rate = motion_rate(s, ws, ports[k]->motion, u.cwiseProduct(scale)).first;
       const double most = motion_rate(s, ws, ports[k]->motion, scale).second;
@@ -215,9 +214,9 @@ void judge_stops(const model::Scene& scene, const system::System& s, std::vector
   }
 }
 
-constexpr double overstretched = 2.0; ///< strain beyond that of any rope, rubber cords among them
+constexpr double overstretched = 2.0; ///< strain beyond that of any rope, including rubber cords
 
-/// Ropes and lines of which the ends are much farther apart than they are long.
+/// Judges ropes and lines whose ends are much farther apart than their length.
 void judge_stretch(const model::Scene& scene, std::vector<Finding>& out) {
   const auto judge = [&](const auto& force, double chord, double length, double stiffness) {
     const double strain =
@@ -255,8 +254,7 @@ void judge_stretch(const model::Scene& scene, std::vector<Finding>& out) {
       judge_line(line);
 }
 
-/// A line in the reference pose: how far it hangs below its end A, and the part of its unstretched
-/// length that is out of the water.
+/// Line in the reference pose: its sag below end A, and the dry part of its unstretched length.
 struct Shape {
   double sag = 0.0, dry = 0.0; ///< [m], [-]
 };
@@ -276,7 +274,7 @@ Shape shape(const line::CatenaryLine& of) {
   return out;
 }
 
-/// Lines in other water, or on another seabed, than those of the scene.
+/// Judges lines in other water, or on another seabed, than those of the scene.
 void judge_water(const model::Scene& scene, std::vector<Finding>& out) {
   const model::Water water = model::water(scene);
   const bool bottomless = !std::isfinite(water.depth);
@@ -299,7 +297,8 @@ void judge_water(const model::Scene& scene, std::vector<Finding>& out) {
   }
   for (const auto& line : std::get<std::vector<line::CatenaryLine>>(scene.forces)) {
     const Shape hangs = shape(line);
-    constexpr double hardly = 0.01; // of its length: 1/8 of the weight of steel is 0.1 % of all
+    // part of its length: 1/8 of the weight of steel is 0.1 % of all
+    constexpr double hardly = 0.01;
     if (line.dry_weight.empty() && water.density > 0.0 && hangs.dry > hardly)
       tell(line.name, false,
            ": " + rounded_text(100.0 * hangs.dry, 2) +
@@ -316,7 +315,8 @@ void judge_water(const model::Scene& scene, std::vector<Finding>& out) {
   }
 }
 
-/// Bodies with mass that turn about an axis without a moment of inertia: meant, or forgotten.
+/// Judges bodies with mass that turn about an axis without a moment of inertia, which may be an
+/// oversight.
 void judge_inertia(const system::System& s, std::vector<Finding>& out) {
   for (const system::BodyData& b : s.bodies)
     for (int k = b.n_translations; k < b.n_active && b.mass > 0.0; ++k)

@@ -15,17 +15,18 @@ namespace hydrodae::sanity {
 
 namespace {
 
-constexpr double worth_saying = 0.005, too_much = 0.05; ///< imbalance of what floats freely
-constexpr double lightest = 0.02, heaviest = 50.0;      ///< weight over buoyancy of what is held
-constexpr double thinnest = 0.03, widest = 10.0;        ///< radius of gyration over V^(1/3)
-constexpr double unit_slip = 100.0;                     ///< factor from which a unit is suspected
+/// Imbalance of free-floating bodies: reported, and serious
+constexpr double worth_saying = 0.005, too_much = 0.05;
+constexpr double lightest = 0.02, heaviest = 50.0; ///< weight over buoyancy of held bodies
+constexpr double thinnest = 0.03, widest = 10.0;   ///< radius of gyration over V^(1/3)
+constexpr double unit_slip = 100.0;                ///< factor that suggests a wrong unit
 
 std::string percent(double part) {
   const double value = 100.0 * part;
   return (value > 0.0 ? "+" : "") + number_text(std::round(value * 100.0) / 100.0) + " %";
 }
 
-/// "2.568 kN"
+/// Text of a force, "2.568 kN".
 std::string force_text(double newtons) {
   const double size = std::abs(newtons);
   return size >= 1e6   ? rounded_text(newtons / 1e6, 4) + " MN"
@@ -33,15 +34,15 @@ std::string force_text(double newtons) {
                        : rounded_text(newtons, 4) + " N";
 }
 
-/// Does a row of a joint, or a motion, feel a body that moves up alone?
+/// Returns whether a row of a joint, or a motion, changes when one body heaves.
 bool feels_heave(const joint::Vector12& gradient, int side) {
   return std::abs(gradient[6 * side + 2]) > 1e-9;
 }
 
-/// Do these laws load a body by the pressure of still water at its pose?
+/// Returns whether these laws load a body by the pressure of still water at its pose.
 bool follows_pose(const element::Elements& laws) { return laws.shape.in_water() && laws.buoyant; }
 
-/// Such laws in still water, their bodies in the reference pose.
+/// Linearised laws of still-water pressure, with their bodies in the reference pose.
 std::vector<element::AtRest> in_reference_pose(const system::System& s,
                                                const system::ElementList& list) {
   const std::shared_ptr<const element::Elements> still = list.laws->calm(),
@@ -67,8 +68,8 @@ std::vector<element::AtRest> in_reference_pose(const system::System& s,
   return rests;
 }
 
-/// All laws about rest, in the order of `for_each_law`: on points where these are, of pressure at
-/// the reference pose.
+/// Linearised laws in the order of `for_each_law`: laws on points at the present places, laws of
+/// pressure at the reference pose.
 using Rests = std::vector<element::AtRest>;
 
 Rests laws_at_rest(const system::System& s, const system::Workspace<double>& ws) {
@@ -89,7 +90,7 @@ Rests laws_at_rest(const system::System& s, const system::Workspace<double>& ws)
   return rests;
 }
 
-/// Visits all laws: visit(list, port, the law about rest).
+/// Visits all laws: visit(list, port, linearised law).
 template <class Visit>
 void for_each_rest(const system::System& s, const Rests& rests, Visit&& visit) {
   auto rest = rests.begin();
@@ -97,7 +98,7 @@ void for_each_rest(const system::System& s, const Rests& rests, Visit&& visit) {
                               const system::PortData& port) { visit(list, port, *rest++); });
 }
 
-/// Rows and motions that carry a vertical load from body to body, or to the ground.
+/// Rows and motions that transmit a vertical load between bodies, or to the ground.
 struct Link {
   int a = -1, b = -1;        ///< bodies, -1: the ground
   double by_a = 0, by_b = 0; ///< rate of the row by their heave
@@ -126,7 +127,7 @@ std::vector<Link> vertical_links(const system::System& s, const system::Workspac
     const bool rope = stop != s.switches.end() && !std::isfinite(stop->lower) &&
                       s.motions[static_cast<std::size_t>(stop->motion)].motion.kind ==
                           joint::FreeMotion::Kind::stretches;
-    if (stop == s.switches.end() || rope) // an open stop carries nothing
+    if (stop == s.switches.end() || rope) // an open stop transmits no load
       for (const system::CouplerData::Term& term : s.couplers[k].terms)
         add_motion(term.motion);
   }
@@ -196,7 +197,7 @@ void judge_balance(const system::System& s, const FloatingGroup& group, std::vec
   out.push_back({std::abs(part) > (group.stiffness > 0.0 ? too_much : 1e-3), text + unit});
 }
 
-/// Each wet body of a group by itself: far from what it displaces a unit is suspected.
+/// Judges each wet body of a group: a weight far from its buoyancy suggests a wrong unit.
 void judge_bodies(const model::Scene& scene, const system::System& s, const FloatingGroup& group,
                   std::vector<Finding>& out) {
   for (int body : group.bodies) {
@@ -229,8 +230,8 @@ void judge_bodies(const model::Scene& scene, const system::System& s, const Floa
   }
 }
 
-/// A single body that floats freely and that roll or pitch drive away: its centre of gravity is too
-/// high.
+/// Judges a single free-floating body that is unstable in roll or pitch: its centre of gravity is
+/// too high.
 void judge_stability(const system::System& s, const Rests& rests, const FloatingGroup& group,
                      std::vector<Finding>& out) {
   if (group.held || !group.wet || group.bodies.size() != 1 || !(std::abs(group.imbalance()) < 0.5))
@@ -306,12 +307,12 @@ std::vector<FloatingGroup> find_groups(const system::System& s, const system::Wo
                   (water ? group.buoyancy : group.load) += rest.load[2];
                   (water ? group.stiffness : group.mooring) += rest.stiffness(2, 2);
                 });
-  for (const Link& link : links) { // does the row let the whole group heave?
+  for (const Link& link : links) { // checks whether the row lets the whole group heave
     const double rate = (link.a >= 0 ? link.by_a : 0.0) + (link.b >= 0 ? link.by_b : 0.0);
     if (std::abs(rate) > 1e-6)
       group_of(link.a >= 0 && link.by_a != 0.0 ? link.a : link.b).held = true;
   }
-  for (FloatingGroup& group : groups) // a taut mooring; a soft one moves with what floats
+  for (FloatingGroup& group : groups) // a taut mooring; a soft one moves with the body
     group.held = group.held || group.mooring > std::max(group.stiffness, 0.0);
   return groups;
 }

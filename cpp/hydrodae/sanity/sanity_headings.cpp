@@ -14,20 +14,23 @@ namespace hydrodae::sanity {
 
 namespace {
 
-/// Of the largest force over the headings: reported, and serious.
+/// Doubtful part of the largest force over the headings: reported, and serious.
 constexpr double doubt_worth_saying = 0.02, doubt_too_large = 0.2;
-constexpr double force_unseen = 0.02;         ///< of the largest of its unit: noise
-constexpr double headings_apart = 36.0;       ///< steps of tables without a check are named [deg]
-constexpr std::size_t components_judged = 64; ///< of a sea, evenly picked
-constexpr double off_the_table = 1e-6;        ///< what the others count at a heading of the table
+constexpr double force_unseen = 0.02; ///< noise, as part of the largest force of its unit
+/// Heading steps above which tables without a check are reported [deg]
+constexpr double headings_apart = 36.0;
+/// Largest number of judged components of a sea, evenly chosen
+constexpr std::size_t components_judged = 64;
+/// Weight of other headings at a heading of the table
+constexpr double off_the_table = 1e-6;
 
-/// Mean squares over the components of a sea, coordinate by coordinate, and what is doubtful.
+/// Mean squares over the components of a sea, by coordinate, with the doubtful part.
 struct HeadingDoubt {
-  VectorX size; ///< largest over the headings
+  VectorX size; ///< largest value over the headings
   MatrixX miss; ///< (n_left_out, n_labels)
 };
 
-/// Labels of the coordinates that move, those that stand in the database.
+/// Labels of the moving coordinates that are in the database.
 std::vector<std::string> moving_labels(const model::Scene& scene, const system::System& s) {
   std::vector<std::string> out;
   for (const system::HydroData::Coordinate& c : s.hydro.coordinates)
@@ -54,7 +57,7 @@ HeadingDoubt doubt_of(const hydro::Excitation& excitation,
   return out;
 }
 
-/// The coordinate whose forces are most doubtful, and by how much [-].
+/// Coordinate with the most doubtful forces, and the doubtful part [-].
 std::pair<int, double> most_doubtful(const hydro::Headings& headings, const HeadingDoubt& found,
                                      const std::vector<std::string>& labels) {
   const auto turns = [&](std::size_t k) {

@@ -1,4 +1,4 @@
-/// Meshes in still water: their size, and what of them stands above it.
+/// Findings on meshes in still water: their size and freeboard.
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +12,12 @@ namespace hydrodae::sanity {
 
 namespace {
 
-constexpr double longest_hull = 1000.0; ///< the longest that has floated is 488 m long [m]
-constexpr double length_slip = 100.0;   ///< ratio of two lengths from which a unit is suspected
-constexpr double digits = 1e-3;         ///< of the height of a hull: what its file may round
+/// Longest plausible hull [m]; the longest ship was 488 m long
+constexpr double longest_hull = 1000.0;
+constexpr double length_slip = 100.0; ///< ratio of two lengths that suggests a wrong unit
+constexpr double digits = 1e-3;       ///< rounding of a file, as part of the height of a hull
 
-/// Box around the mesh of a body in its reference pose, in world axes [m].
+/// Bounding box of the mesh of a body in its reference pose, world axes [m].
 struct Extent {
   Vector3 low, high;
   double length() const { return (high - low).maxCoeff(); }

@@ -20,7 +20,8 @@ double steepest_sea(double peak_period) {
 
 /// Breaking height over length of a regular wave: 0.142 tanh(k h) (Miche 1944).
 constexpr double breaking = 0.142;
-constexpr double breaking_over_depth = 0.6; ///< of a significant height
+/// Breaking limit of a significant height, as part of the depth
+constexpr double breaking_over_depth = 0.6;
 constexpr double linear = 0.05; ///< height over length above which linear theory is stretched
 
 void judge_regular(const sea::Regular& wave, const model::Water& water, std::vector<Finding>& out) {
@@ -90,7 +91,7 @@ std::vector<Finding> look_at_sea(const model::Scene& scene) {
   const model::Water water = model::water(scene);
   if (!(water.gravity > 0.0))
     return out;
-  double squares = 0.0; // of the significant heights
+  double squares = 0.0; // sum of squares of the significant heights
   for (const sea::Wave& wave : scene.waves) {
     if (const auto* regular = wave.as<sea::Regular>())
       judge_regular(*regular, water, out);

@@ -3,7 +3,7 @@
 
 namespace hydrodae::sea {
 
-/// eta(x, y, t) = amplitude cos(w t - k (x cos heading + y sin heading) + phase)
+/// Wave component eta(x, y, t) = amplitude cos(w t - k (x cos heading + y sin heading) + phase)
 struct Component {
   double omega = 0.0;      ///< [rad/s]
   double wavenumber = 0.0; ///< [rad/m]
@@ -12,7 +12,7 @@ struct Component {
   double phase = 0.0;      ///< [rad]
 };
 
-/// Frequencies that something covers [rad/s].
+/// Range of frequencies [rad/s].
 struct Band {
   double low = 0.0, high = INFINITY;
 };

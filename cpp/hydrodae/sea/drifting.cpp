@@ -33,8 +33,8 @@ DriftingSignals::DriftingSignals(std::vector<Component> components, Eigen::Matri
   parts_ << coefficients_.real(), -coefficients_.imag();
 }
 
-/// What `parts_` takes: column [cos; sin] of the angles, for the slopes the columns k [sin; -cos],
-/// times the ramp.
+/// Writes the phasors for `parts_`: column [cos; sin] of the angles, for slopes the columns k [sin;
+/// -cos], times the ramp.
 Eigen::Ref<MatrixX> DriftingSignals::phasors(double t, double x, double y, bool slopes) const {
   const Eigen::Index n = omega_.size();
   MatrixX& out = phasor_memory(2 * n);

@@ -1,5 +1,6 @@
 #pragma once
-/// Table [[gauge]]: where the elevation of the waves is reported, now and some time ahead.
+/// Table [[gauge]]: place where the elevation of the waves is reported, now and for some time
+/// ahead.
 
 #include <optional>
 #include <string>
@@ -9,8 +10,7 @@
 
 namespace hydrodae::sea {
 
-/// Elevation of the undisturbed waves, with their ramp, at a place that stays or goes with a
-/// marker.
+/// Elevation of the undisturbed waves, with their ramp, at a fixed place or at a marker.
 struct Gauge {
   static constexpr std::string_view doc =
       "A place where the elevation of the undisturbed waves is reported, now and some time ahead.";

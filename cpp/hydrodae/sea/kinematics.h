@@ -40,10 +40,11 @@ std::vector<Layer> layers(const std::vector<Vector3>& rows);
 struct WaveField {
   struct Term {
     double omega = 0.0, wavenumber = 0.0, phase = 0.0; ///< [rad/s], [rad/m], [rad]
-    double cosine = 1.0, sine = 0.0;                   ///< of the direction of travel
-    double amplitude = 0.0;                            ///< a [m]
-    double reflection = 0.0;                           ///< e^{-2kh}; 0 in deep water
-    double speed = 0.0;                                ///< a w / (1 - e^{-2kh}) [m/s]
+    /// Cosine and sine of the direction of travel
+    double cosine = 1.0, sine = 0.0;
+    double amplitude = 0.0;  ///< a [m]
+    double reflection = 0.0; ///< e^{-2kh}; 0 in deep water
+    double speed = 0.0;      ///< a w / (1 - e^{-2kh}) [m/s]
   };
   double depth = INFINITY, ramp = 0.0; ///< h [m], growth at the start [s]
   Vector3 current = Vector3::Zero();   ///< [m/s]
@@ -104,15 +105,15 @@ template <class S> struct FluidPoint {
   S elevation;
 };
 
-/// Their derivatives by the place: column j is by x_j.
+/// Derivatives by the place: column j is by x_j.
 struct FluidGradient {
   Matrix3 velocity, acceleration;
   Vector3 elevation;
 };
 
-/// The water at the n points x0 + j dx, j = 0 .. n-1, of a straight line, and, where `gradients` is
-/// not null, its derivatives. Two sines and cosines a component, then recurrences from point to
-/// point. No allocation.
+/// Water at the n points x0 + j dx, j = 0 .. n-1, of a straight line and, unless `gradients` is
+/// null, its derivatives. Each component needs two sines and cosines, then recurrences from point
+/// to point. Allocates nothing.
 template <class S>
 void fluid_on_line(const WaveField& field, double t, const Vec3<S>& x0, const Vec3<S>& dx, int n,
                    FluidPoint<S>* out, FluidGradient* gradients = nullptr) {
@@ -123,7 +124,7 @@ void fluid_on_line(const WaveField& field, double t, const Vec3<S>& x0, const Ve
   const Vec3<S> step = down ? Vec3<S>(-dx) : dx;
   const Vec3<S> low = down ? Vec3<S>(x0 + S(n - 1) * dx) : x0;
   const auto place = [&](int j) { return down ? n - 1 - j : j; };
-  int first = 0; // that is not beneath the bed
+  int first = 0; // index of the first point above the bed
   while (first < n && low[2] + S(first) * step[2] < S(-field.depth))
     ++first;
   for (int j = 0; j < n; ++j) {

@@ -14,7 +14,7 @@ struct Measured : WaveSystem {
       "Elevation over time at a point: the harmonics of the record.";
   static constexpr double usual_loss = 0.02;
   std::optional<std::string> file;
-  std::vector<double> time, elevation; ///< of the record, also when it comes from the file
+  std::vector<double> time, elevation; ///< record, also when it comes from the file
   std::vector<double> point;
   double start = 0.0;
   double taper = 30.0;
@@ -25,7 +25,7 @@ struct Measured : WaveSystem {
   double length() const { return time.back() - time.front(); } ///< [s]
   double step() const { return length() / static_cast<double>(time.size() - 1); } ///< [s]
 
-  /// Has it equal steps, and is it as long as the run?
+  /// Returns a fault if steps are unequal or the record is shorter than the run.
   std::optional<Fault> fault(double end_time) const;
 
   template <class W = Measured> static Fields<W> fields() {

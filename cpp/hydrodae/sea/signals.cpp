@@ -9,7 +9,7 @@
 namespace hydrodae::sea {
 namespace {
 
-constexpr Index slice = 32; ///< points of a page whose phasors are made at once
+constexpr Index slice = 32; ///< number of points of a page whose phasors are made at once
 
 /// Largest step that keeps the error of the quintic Hermite polynomial within the tolerance.
 double table_step(const VectorX& omega, const Eigen::MatrixXcd& coefficients,
@@ -69,8 +69,7 @@ void Signals::make_table() {
   }
 }
 
-/// The phasors of each slice are turned on from those before it; each page begins again, before
-/// rounding shows.
+/// Rotates the phasors of each slice from the last one; each page restarts before rounding matters.
 void Signals::fill(Index number, Page& page) const {
   const Index n = omega_.size();
   for (Index i = 0; i < n; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What every table [[wave]] has, and what its types share.
+/// Common members of every table [[wave]] and of its types.
 
 #include <cmath>
 #include <optional>
@@ -15,29 +15,30 @@
 
 namespace hydrodae::sea {
 
-/// Where waves travel, and at which frequencies something feels them.
+/// Place of the waves, and frequencies that the scene responds to.
 struct Site {
   double depth = INFINITY, gravity = 9.81; ///< [m], [m/s2]
-  Band covered;                            ///< a wave without a range of its own is cut to these
+  /// Frequencies that a wave without its own range is cut to
+  Band covered;
 };
 
 /// A wave system as a sum of plane waves.
 struct Sum {
   std::vector<Component> components;
-  double lost = 0.0; ///< part of the variance outside the range, beyond what is usual [-]
-  std::string range; ///< that range, in words
-  std::string note;  ///< how they were made, in words; "" where there is nothing to say
+  double lost = 0.0; ///< part of the variance outside the range, beyond the usual one [-]
+  std::string range; ///< description of that range
+  std::string note;  ///< note on the components; "" if missing
 
   std::string lost_text() const; ///< "2.1 % of the variance lies outside 0.2 to 1.5 rad/s"
 };
 
-/// One wave system. A type is a struct that derives from this one (spectra from `Irregular`), with
+/// Wave system. A type is a struct that derives from this one (spectra from `Irregular`), with
 ///
 ///   type, doc, fields()       as every typed table (core/one_of.h)
 ///   components(Site)          its waves
-///   significant_height()      Hs [m], of all but a regular wave
-///   peak_period(gravity)      Tp [s], where it has one: judged by its steepness
-///   fault(), fault(end_time)  optional: what is wrong with its values
+///   significant_height()      Hs [m], except for a regular wave
+///   peak_period(gravity)      Tp [s], if it exists: for checks of the steepness
+///   fault(), fault(end_time)  optional: fault in its values
 ///
 /// and one entry in the list of sea/wave.h.
 struct WaveSystem {
@@ -46,7 +47,7 @@ struct WaveSystem {
   std::string name;
   double heading = 0.0;
   std::optional<double> lost_variance;
-  static constexpr double usual_loss = 0.0; ///< of the variance, where nothing else is allowed
+  static constexpr double usual_loss = 0.0; ///< part of the variance that may be lost by default
 };
 
 template <class W> Fields<W> system_fields() {
@@ -94,7 +95,7 @@ std::optional<Fault> table_fault(const std::vector<double>& frequency,
 inline constexpr double shortest_period = 1e-3; // [s]
 std::optional<Fault> period_fault(const char* key, double period);
 
-/// A wave system that is drawn from a spectrum.
+/// Wave system drawn from a spectrum.
 struct Irregular : WaveSystem {
   static constexpr double usual_loss = 0.1;
   std::optional<double> spreading;

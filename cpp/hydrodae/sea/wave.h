@@ -18,7 +18,7 @@
 
 namespace hydrodae::sea {
 
-/// Table [sea]: what all wave systems share.
+/// Table [sea]: values common to all wave systems.
 struct Sea {
   static constexpr std::string_view doc = "What all wave systems share, and the current.";
   double ramp = 0.0;

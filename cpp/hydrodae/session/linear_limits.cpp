@@ -10,7 +10,7 @@ namespace hydrodae::session {
 
 namespace {
 
-/// Sum a^2 L / sum a^2 over the wave components, L = 2 pi / k [m].
+/// Mean wave length [m]: sum a^2 L / sum a^2 over the wave components, L = 2 pi / k.
 double wave_length(const model::Scene& scene) {
   double energy = 0.0, sum = 0.0;
   for (const sea::Component& c : model::wave_components(scene)) {
@@ -27,7 +27,7 @@ void take(std::optional<Crossing>& crossing, double t, double value, double limi
     crossing->largest = std::max(crossing->largest, value);
 }
 
-/// "15.3 deg", "0.72 m": two digits after those that matter are noise.
+/// Text "15.3 deg", "0.72 m", with two more digits than matter.
 std::string rounded(double value, const std::string& unit) {
   const double step = value >= 100.0 ? 1.0 : value >= 1.0 ? 0.1 : 0.001;
   return number_text(std::round(value / step) * step) + " " + unit;
@@ -40,8 +40,8 @@ std::string sentence(const std::string& body, const std::string& what, const Cro
          rounded(factor * c.largest, unit) + " (limit " + limit + ")";
 }
 
-/// V / A_w of walls that stand upright, with the waterplane A_w = C_33 / (rho g); where that is
-/// small, as of spars and what is under water, the cube root of V [m].
+/// Draught V / A_w of a wall-sided body [m], with the waterplane A_w = C_33 / (rho g); for a small
+/// waterplane (spars, submerged bodies) the cube root of V.
 double draught(const hydro::Database& database, const hydro::Hydrostatics& h) {
   const double plane = h.stiffness(2, 2) / (database.rho * database.gravity);
   const double cube = std::cbrt(h.displaced_volume);
@@ -95,7 +95,7 @@ void watch(LinearLimits& limits, double t, const std::vector<system::BodyState<d
     const LinearLimits::Body& b = limits.bodies[k];
     LinearLimits::OfBody& found = limits.state.bodies[k];
     const system::BodyState<double>& state = states[static_cast<std::size_t>(b.body)];
-    // cos(angle): of the whole turn from the mean pose, or of the tilt of the z axis.
+    // Cosine of the total rotation from the mean pose, or of the tilt of the z axis.
     const double cosine =
         b.free_yaw ? state.R(2, 2) : 0.5 * (b.mean.cwiseProduct(state.R).sum() - 1.0);
     take(found.turn, t, std::acos(std::clamp(cosine, -1.0, 1.0)), LinearLimits::largest_turn);

@@ -28,7 +28,7 @@ void SeaSample::take(double t, double averaged_from, std::span<const double> row
       std::copy_n(state_.work.begin() + static_cast<long>(2 * i * width), width,
                   state_.work.begin() + static_cast<long>(i * width));
     state_.work.resize(most_samples / 2 * width);
-    state_.every *= 2; // and this row is the next: most_samples is even
+    state_.every *= 2; // this row is the next one: most_samples is even
   }
   for (const Column& column : columns_)
     state_.work.push_back(row[column.place]);
@@ -50,7 +50,7 @@ void SeaSample::write(RunStatistics& statistics) const {
     return;
   std::vector<double> total(samples - 1);
   for (const auto& [name, mean] : statistics.mean_power) {
-    std::vector<double> power(samples - 1); // the work of a force on its bodies is what it gives
+    std::vector<double> power(samples - 1); // work done by a force on its bodies
     for (std::size_t k = 0; k < width; ++k)
       if (columns_[k].name == name)
         for (std::size_t i = 0; i + 1 < samples; ++i)

@@ -15,13 +15,15 @@ namespace hydrodae::session {
 
 namespace {
 
-constexpr double looser = 10.0;       ///< tolerance of the second run over that of the first
-constexpr double largest_rtol = 1e-2; ///< of a second run; beyond, steps do not follow a tolerance
+/// Ratio of the tolerance of the second run to that of the first
+constexpr double looser = 10.0;
+/// Largest rtol of a second run; above it steps do not follow a tolerance
+constexpr double largest_rtol = 1e-2;
 
-/// Answers of a controller, each with its sampling instant [s].
+/// Outputs of a controller, each with its sampling instant [s].
 using Answers = std::vector<std::pair<double, std::vector<double>>>;
 
-/// Passes everything on to another law, and keeps its answers.
+/// Law that forwards to another law and records its outputs.
 class RecordingLaw final : public control::Law {
 public:
   RecordingLaw(std::unique_ptr<control::Law> law, std::shared_ptr<Answers> answers)
@@ -54,13 +56,13 @@ private:
   std::shared_ptr<Answers> answers_;
 };
 
-/// Repeats recorded answers: at each instant the last one that is not later.
+/// Law that repeats recorded outputs: at each instant the last one not later.
 class RepeatingLaw final : public control::Law {
 public:
   explicit RepeatingLaw(std::shared_ptr<const Answers> answers) : answers_(std::move(answers)) {}
   void sample(double t, std::span<const double>, std::span<double> out) override {
-    const double now = t + 1e-9 * std::max(1.0, std::abs(t)); // instants of one clock differ by
-                                                              // rounding
+    // instants of one clock differ by rounding
+    const double now = t + 1e-9 * std::max(1.0, std::abs(t));
     auto next = std::upper_bound(answers_->begin(), answers_->end(), now,
                                  [](double time, const auto& a) { return time < a.first; });
     if (next != answers_->begin())
@@ -71,8 +73,8 @@ private:
   std::shared_ptr<const Answers> answers_;
 };
 
-/// Lets the second run have its own laws where they can be made again, else recorded answers.
-/// @returns names of the controllers whose answers are repeated
+/// Sets the laws of the second run: new ones if they can be made again, else recorded outputs.
+/// @returns names of the controllers with repeated outputs
 std::vector<std::string> part_controllers(model::Scene& first, model::Scene& second) {
   std::vector<std::string> repeated;
   for (std::size_t k = 0; k < first.controllers.size(); ++k) {
@@ -96,9 +98,10 @@ std::vector<std::string> part_controllers(model::Scene& first, model::Scene& sec
   return repeated;
 }
 
-/// c - 1, where errors grow c times from the first run to the second. Errors of fixed steps h go as
-/// h^p; constraints reduce the order p of stages, to s + 1 of s = p / 2. Error control keeps the
-/// error of each step, as h^(p + 1), at rtol, so that that of the run goes as rtol^(p / (p + 1)).
+/// Divisor c - 1, if errors grow c times from the first run to the second. Errors of fixed steps h
+/// are of order h^p; constraints reduce the order p of stages to s + 1 with s = p / 2. Error
+/// control keeps the error of each step, of order h^(p + 1), at rtol, so that the error of the run
+/// is of order rtol^(p / (p + 1)).
 double divisor(const SecondRunPlan& plan, int order) {
   if (plan.ratio == 1.0)
     return 1.0;
@@ -107,9 +110,9 @@ double divisor(const SecondRunPlan& plan, int order) {
   return std::pow(plan.ratio, fixed ? std::min(p, 0.5 * p + 1.0) : p / (p + 1.0)) - 1.0;
 }
 
-/// Does something bound the steps that no longer step may pass: a longest step, instants of
-/// controllers, the past that loads depend on? Both runs of a looser tolerance would take the same
-/// steps there, and make the same error.
+/// Returns whether firm bounds limit the steps: a longest step, instants of controllers, or a past
+/// that loads depend on. Runs with looser tolerance would take the same steps and make the same
+/// error.
 bool has_firm_bounds(const model::Scene& scene) {
   const auto is_late = [](const auto& list) {
     return std::any_of(list.begin(), list.end(), [](const auto& force) {
@@ -248,7 +251,7 @@ void SecondRun::finish(const std::function<bool()>& ask) {
   while (!comparison_.wait_for_second())
     if (!ask())
       return give_up();
-  give_up(); // it has ended
+  give_up(); // the run has ended
 }
 
 void SecondRun::give_up() {

@@ -1,5 +1,5 @@
 #pragma once
-/// The second run of a scene, by which the error of the first is estimated.
+/// Second run of a scene, which estimates the error of the first.
 
 #include <atomic>
 #include <condition_variable>
@@ -19,46 +19,46 @@ class Simulation;
 
 namespace hydrodae::session {
 
-/// How the second run differs from the first one.
+/// Differences of the second run from the first one.
 struct SecondRunPlan {
   model::Scene scene;
-  double ratio = 1.0;      ///< of the tolerances or steps; 1: the second run is the more exact one
-  double looser = 1.0;     ///< of the tolerances, whichever run is the more exact one
-  std::string how;         ///< "a second run at rtol = 1e-05"
-  std::string missing;     ///< why there can be none; empty: there can be
-  bool afterwards = false; ///< not beside the first: it calls Python, or repeats recorded answers
+  double ratio = 1.0;  ///< ratio of tolerances or steps; 1: the second run is more exact
+  double looser = 1.0; ///< ratio of tolerances, whichever run is more exact
+  std::string how;     ///< description: "a second run at rtol = 1e-05"
+  std::string missing; ///< reason why there is no second run; empty: there is one
+  /// True: after the first run, because it calls Python or repeats recorded outputs
+  bool afterwards = false;
 };
 
-/// Changes `scene` so that the answers of controllers outside the kernel are recorded, and returns
-/// the plan of the second run. It has 10 rtol, or twice the fixed step; where that is beyond the
-/// largest tolerance, or where something bounds the steps that no longer one may pass, a tenth of
-/// rtol. Steps that waves or such bounds end change as those that the tolerance bounds: else both
-/// runs would make the same error.
-/// @param method of the second run at the tolerance of the first; empty: the method of the first
+/// Plans the second run, and changes `scene` to record the outputs of controllers outside the
+/// kernel. The second run has 10 rtol, or twice the fixed step. If that exceeds the largest
+/// tolerance, or firm bounds limit the steps, it has a tenth of rtol. Steps limited by waves or
+/// such bounds change in the same ratio: otherwise both runs would make the same error.
+/// @param method  method of the second run at the tolerance of the first; empty: the same method
 SecondRunPlan plan_second_run(model::Scene& scene, const std::string& method);
 
-/// Runs it, in a thread of its own unless the plan says afterwards. The comparison must outlive it.
+/// Second run, in its own thread unless the plan says afterwards. The comparison must outlive it.
 class SecondRun {
 public:
-  /// @param from that it goes on from; null: from the start
+  /// @param from  checkpoint to continue from; null: from the start
   SecondRun(SecondRunPlan plan, accuracy::Comparison& comparison,
             const run::Checkpoint* from = nullptr);
   ~SecondRun();
   SecondRun(const SecondRun&) = delete;
   SecondRun& operator=(const SecondRun&) = delete;
 
-  /// Adds to a checkpoint what this run goes on from: it is stopped between two steps meanwhile.
+  /// Adds the state of this run to a checkpoint; the run stops between two steps meanwhile.
   void save(run::Checkpoint& checkpoint);
 
-  /// The first run has reached its end: waits for the second, or makes it now.
-  /// @param ask called now and then; false: stop
+  /// Completes the second run after the end of the first: waits for it, or makes it now.
+  /// @param ask  called regularly; false: stop
   void finish(const std::function<bool()>& ask);
 
-  /// The first run has failed or was stopped: the second stops soon.
+  /// Stops the second run soon, because the first has failed or was stopped.
   void give_up();
 
-  /// The estimate, with how it was made, and where it ends.
-  /// @param order of the method of the first run
+  /// Error estimate, with its method and end.
+  /// @param order  order of the method of the first run
   accuracy::Estimate estimate(int order) const;
 
 private:
@@ -69,13 +69,13 @@ private:
   SecondRunPlan plan_;
   accuracy::Comparison& comparison_;
   std::atomic<bool> given_up_ = false;
-  std::string stopped_; ///< why the second run did not reach the end; empty: it did
+  std::string stopped_; ///< reason why the second run did not reach the end; empty: it did
   std::optional<run::State> from_, saved_;
-  long next_ = 0; ///< sample, where `saved_` is or `from_` was
+  long next_ = 0; ///< sample number at `saved_` or `from_`
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::atomic<bool> asked_ = false;       ///< for `saved_`
-  bool waits_ = false, has_ended_ = true; ///< has_ended_: no thread is at work
+  std::atomic<bool> asked_ = false;       ///< true: `saved_` is requested
+  bool waits_ = false, has_ended_ = true; ///< has_ended_: no thread is running
   std::thread thread_;
 };
 

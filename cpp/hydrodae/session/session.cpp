@@ -29,7 +29,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// One run from the start to the end: a simulation makes steps, and rows of a file of them.
+/// Run from start to end: a simulation makes steps and writes rows to a file.
 class Session {
 public:
   Session(const model::Scene& scene, const Progress& progress)
@@ -42,13 +42,13 @@ public:
     statistics_.setup_time = seconds_since(started_);
   }
 
-  /// The file of a run from the start.
+  /// Opens the file of a run from the start.
   void open(const std::string& path) {
     file_ = std::make_unique<io::ResultsFile>(path, simulation_.channels(),
                                               header(scene(), statistics_.notes));
   }
 
-  /// Goes on from a checkpoint, with the rows that were written before it.
+  /// Continues from a checkpoint, with the rows written before it.
   void resume(const std::string& path, const run::Checkpoint& from) {
     simulation_.restore(from.state);
     set(from_bytes<State>(from.output));
@@ -61,14 +61,13 @@ public:
     before.drop();
   }
 
-  /// Estimates the error of the run that is to begin by that second run, which begins too, or goes
-  /// on from its part of a checkpoint.
+  /// Starts a second run to estimate the error, or continues it from its part of a checkpoint.
   void compare_with(SecondRunPlan plan, const run::Checkpoint* from) {
     comparison_ = std::make_unique<accuracy::Comparison>(simulation_.regime(), plan.afterwards);
     second_ = std::make_unique<SecondRun>(std::move(plan), *comparison_, from);
   }
 
-  /// Says why the error of the run is not estimated.
+  /// Sets the reason why the error is not estimated.
   void do_not_estimate(const std::string& why) { statistics_.accuracy.missing = why; }
 
   RunStatistics operator()(const std::string& path, const RunOptions& options) {
@@ -96,13 +95,13 @@ public:
     return statistics_;
   }
 
-  /// What the rows so far have left behind.
+  /// State after the rows so far.
   struct State {
-    long next = 0;            ///< sample
-    double last_sample = 0.0; ///< time of the one before [s]
+    long next = 0;            ///< next sample
+    double last_sample = 0.0; ///< time of the last sample [s]
     LinearLimits::State limits;
     SeaSample::State sea;
-    double solver = 0.0, wall = 0.0; ///< wall time inside the method, and of all [s]
+    double solver = 0.0, wall = 0.0; ///< wall time inside the method, and in total [s]
   };
   State state() const {
     return {next_,
@@ -127,7 +126,7 @@ private:
   bool asked_to_go_on() const { return !progress_ || progress_(simulation_.time(), end()); }
   double end() const { return scene().solver.end_time; }
 
-  /// Steps until the end; false when the progress callback asked to stop.
+  /// Makes steps until the end; returns false if the progress callback requested a stop.
   bool march() {
     const double dt = scene().output.step;
     const auto samples = static_cast<long>(std::floor(end() / dt * (1.0 + 1e-12)));
@@ -150,7 +149,7 @@ private:
       simulation_.advance(end(), samples_inside);
       if (file_)
         file_->flush_if_due();
-      // Between samples that are far apart in steps, a request to stop is heard as well.
+      // Requests to stop are also checked between distant samples.
       if (++steps_since_asked >= 1000 && progress_ && going) {
         steps_since_asked = 0;
         going = progress_(simulation_.time(), end());
@@ -162,7 +161,7 @@ private:
     return going;
   }
 
-  /// The next row of the file. @returns false when the run is asked to stop
+  /// Writes the next row of the file. @returns false if a stop is requested
   bool sample(double t) {
     simulation_.sample(t, row_);
     const std::vector<system::BodyState<double>>& bodies = simulation_.recorder().bodies();
@@ -177,7 +176,7 @@ private:
     return !progress_ || progress_(t, end());
   }
 
-  /// Where one is due, or the run stops: after the rows that it follows are on disk.
+  /// Writes a checkpoint if one is due or the run stops, after its rows are on disk.
   void write_checkpoint(bool stops) {
     if (checkpoint_ < 0.0 || simulation_.finished() ||
         (!stops && seconds_since(last_checkpoint_) < checkpoint_))
@@ -205,7 +204,7 @@ private:
     statistics_.at_rest = simulation_.at_rest();
   }
 
-  /// Ends the second run where it is, if the first has not reached its end.
+  /// Ends the second run at its present time if the first has not reached its end.
   void take_estimate() {
     if (!second_)
       return;
@@ -246,16 +245,17 @@ private:
   run::Simulation simulation_;
   LinearLimits limits_;
   SeaSample sea_sample_;
-  std::string path_, verify_; ///< verify_: method of the second run, as it was asked for
+  std::string path_, verify_; ///< verify_: requested method of the second run
   std::unique_ptr<io::ResultsFile> file_;
   std::vector<double> row_;
   RunStatistics statistics_;
   std::unique_ptr<accuracy::Comparison> comparison_; ///< null: the error is not estimated
-  std::unique_ptr<SecondRun> second_;                ///< likewise
-  long next_ = 0;                                    ///< sample
-  double last_sample_ = 0.0;                         ///< time of the one before [s]
-  double checkpoint_ = -1.0;                       ///< wall time between checkpoints [s]; < 0: none
-  double solver_before_ = 0.0, wall_before_ = 0.0; ///< of what was resumed [s]
+  std::unique_ptr<SecondRun> second_;                ///< null: the error is not estimated
+  long next_ = 0;                                    ///< next sample
+  double last_sample_ = 0.0;                         ///< time of the last sample [s]
+  /// Wall time between checkpoints [s]; negative: no checkpoints
+  double checkpoint_ = -1.0;
+  double solver_before_ = 0.0, wall_before_ = 0.0; ///< wall times before a resume [s]
 };
 
 void check_options(const model::Scene& scene, const std::string& path, const RunOptions& options) {
@@ -320,7 +320,7 @@ RunStatistics simulate(const model::Scene& given, const std::string& output_path
   else if (!output_path.empty())
     session.open(output_path);
   if (!options.resume && !output_path.empty())
-    run::remove_checkpoint(output_path); // the rows that it followed are gone
+    run::remove_checkpoint(output_path); // its rows no longer exist
   return session(output_path, options);
 }
 

@@ -70,7 +70,7 @@ void add_hydro_map(const model::Scene& scene, const Regime& s, const system::Wor
         continue;
       out.hydro_labels.push_back(build::hydro_label(scene, hb, c));
       const system::HydroBody& carrier = s.hydro.bodies[static_cast<std::size_t>(hb.carrier)];
-      out.hydro_yaws.push_back(carrier.yaw); // by which the waves meet it
+      out.hydro_yaws.push_back(carrier.yaw); // yaw by which the waves meet the body
       out.hydro_points.push_back(s.bodies[static_cast<std::size_t>(carrier.body)].position);
     }
   }
@@ -95,7 +95,7 @@ void add_motions(const Regime& s, const system::Workspace<double>& ws, LinearMod
     const std::vector<element::AtRest> rests = element::at_rest(*list.laws, x);
     for (std::size_t law = 0; law < rests.size(); ++law) {
       if (list.laws->lost_at_rest(law))
-        continue; // dry friction is no damper; said in the notes
+        continue; // dry friction is no damper; the notes mention it
       const system::PortData& port = list.ports[law];
       out.dampers.push_back(port.component);
       out.damper_damping.push_back(rests[law].damping(0));
@@ -108,7 +108,7 @@ void add_motions(const Regime& s, const system::Workspace<double>& ws, LinearMod
   }
 }
 
-/// Names of the forces whose states the linear model has: those that differential equations give.
+/// Names of the forces with states in the linear model: those of differential equations.
 std::vector<std::string> owners_of_states(const Regime& s) {
   std::vector<std::string> all(static_cast<std::size_t>(s.memory0 - s.z0)), out;
   for (const system::ElementList& list : s.elements) {
@@ -122,7 +122,7 @@ std::vector<std::string> owners_of_states(const Regime& s) {
   return out;
 }
 
-/// All reactions (6 n_joints,) of the joints that are reported.
+/// Reactions (6 n_joints,) of the reported joints.
 VectorX reactions(const Regime& s, measure::Observer& observer, const VectorX& y) {
   const measure::Observation& o = observer.observe(0.0, y, VectorX::Zero(s.n));
   VectorX out(0);
@@ -138,7 +138,7 @@ VectorX reactions(const Regime& s, measure::Observer& observer, const VectorX& y
 constexpr std::array<const char*, 6> wrench_names = {"force.x",  "force.y",  "force.z",
                                                      "moment.x", "moment.y", "moment.z"};
 
-/// What holds the coordinates that bodies do not have.
+/// Adds the loads that hold the missing coordinates of bodies.
 void add_supports(const Regime& s, const VectorX& y, LinearModel& out) {
   measure::Observer observer(s);
   const measure::Observation& o = observer.observe(0.0, y, VectorX::Zero(s.n));
@@ -153,8 +153,8 @@ void add_supports(const Regime& s, const VectorX& y, LinearModel& out) {
   }
 }
 
-/// Reactions are linear in lambda; by the pose their axes turn: central differences, whose error
-/// (h^2 = 1e-10 of the static reaction) is far below what linear theory means.
+/// Adds the derivatives of reactions. They are linear in lambda. Their axes turn with the pose:
+/// central differences have an error of h^2 = 1e-10 of the static reaction.
 void add_reactions(const Regime& s, const VectorX& y, LinearModel& out) {
   measure::Observer observer(s);
   for (const system::JointData& j : s.joints)
@@ -181,7 +181,7 @@ void add_reactions(const Regime& s, const VectorX& y, LinearModel& out) {
   }
 }
 
-/// What the motion of the water does, point by point.
+/// Adds the loads by the motion of the water, point by point.
 void add_water(const Regime& s, const system::Workspace<double>& ws, LinearModel& out) {
   system::for_each_law(
       s, [&](const system::ElementList& list, std::size_t law, const system::PortData& port) {
@@ -200,7 +200,7 @@ void add_water(const Regime& s, const system::Workspace<double>& ws, LinearModel
       });
 }
 
-/// What limits or damps large motions has no part in a linear model.
+/// Notes nonlinear limits and damping, which a linear model lacks.
 void note_nonlinear(const Regime& s, LinearModel& out) {
   std::vector<std::string> stops;
   for (const system::SwitchData& element : s.switches)

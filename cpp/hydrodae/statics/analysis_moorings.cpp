@@ -15,8 +15,8 @@ bool moors(const element::Elements& laws) {
   return laws.moors || (apart && !laws.buoyant);
 }
 
-/// A law as it was evaluated and differentiated: load and its derivatives by x and v, its algebraic
-/// unknowns taken out.
+/// Value and derivatives of a law: load and its derivatives by x and v, with algebraic unknowns
+/// eliminated.
 struct Slope {
   VectorX load;
   MatrixX by_x, by_v;
@@ -43,14 +43,15 @@ void add_point(const system::Workspace<double>& ws, const joint::Marker& point, 
   }
 }
 
-/// A load f along the distance l of two points, as forces on these:
+/// Load f along the distance l of two points, as forces on the points:
 ///
 ///   force on B = f e,   d (force on B) / d B = f' e e^T + f / l (I - e e^T)
 void put_apart(const Slope& at, Mooring& out) {
   const Vector3 d = out.places[1] - out.places[0];
   const Vector3 e = d.normalized();
   const Matrix3 along = e * e.transpose();
-  const double across = d.isZero(0.0) ? at.by_x(0) : at.load[0] / d.norm(); // its limit at zero
+  // limit at zero distance
+  const double across = d.isZero(0.0) ? at.by_x(0) : at.load[0] / d.norm();
   const Matrix3 by_place = at.by_x(0) * along + across * (Matrix3::Identity() - along);
   const Matrix3 by_rate = at.by_v(0) * along;
   out.load.resize(6);
@@ -64,7 +65,7 @@ void put_apart(const Slope& at, Mooring& out) {
   out.damping = spread(by_rate);
 }
 
-/// Of each law of a list; of those with nodes as they rest where the ends are.
+/// Slopes of each law of a list; laws with nodes are at rest at the present ends.
 std::vector<Slope> slopes_at_rest(const system::ElementList& list, const double* signals,
                                   const double* in, const double* out) {
   const std::shared_ptr<const element::Elements> still = list.laws->statics();
@@ -73,7 +74,7 @@ std::vector<Slope> slopes_at_rest(const system::ElementList& list, const double*
   const auto n_in = static_cast<std::size_t>(shape.n_in()),
              n_out = static_cast<std::size_t>(shape.n_out());
   std::vector<double> seen, loads;
-  if (still) { // places and velocities of the ends alone
+  if (still) { // places and velocities of the ends only
     for (std::size_t k = 0; k < laws.size(); ++k, in += given.n_in())
       seen.insert(seen.end(), in, in + shape.n_in());
     loads.resize(laws.size() * n_out);
@@ -89,7 +90,7 @@ std::vector<Slope> slopes_at_rest(const system::ElementList& list, const double*
   return found;
 }
 
-/// Its channels of one number each.
+/// Adds the scalar channels of a law.
 void add_channels(const element::Elements& laws, const double* values, Mooring& m) {
   for (const element::Quantity& channel : laws.channels) {
     if (channel.width == 1) {

@@ -24,9 +24,9 @@ using system::Regime;
 
 constexpr double longest = 3.0; ///< largest step, in length scales
 constexpr int most_steps = 200, most_creeping_steps = 1000;
-constexpr int most_idle_steps = 40; ///< of Newton's, that bring no better balance
+constexpr int most_idle_steps = 40; ///< number of Newton steps without a better balance
 
-/// Gaps of all rows at position level, in the order of lambda; the others 0.
+/// Gaps of all rows at position level, in the order of lambda; zero at velocity level.
 VectorX gaps_of(const Regime& s, const VectorX& r) {
   VectorX gaps = VectorX::Zero(s.n_lambda);
   system::for_each_row(s, [&](const system::Row& row, bool velocity_level) {
@@ -45,7 +45,7 @@ VectorX gap_sizes(const Regime& s) {
   return sizes;
 }
 
-/// A coordinate and the unit of the force along it: "heave of body 'sphere'", "N".
+/// Name of a coordinate with the unit of its force: "heave of body 'sphere'", "N".
 struct CoordinateName {
   std::string text, unit;
 };
@@ -63,8 +63,8 @@ CoordinateName coordinate_name(const Regime& s, Index u) {
   return {s.row_names[s.u0 + u], "N or N m"};
 }
 
-/// Coordinates of the motions, free of the constraints, that a force drives and that have no
-/// stiffness: K d = 0 but d . f != 0.
+/// Coordinates of motions allowed by the constraints that a force drives and no stiffness restores:
+/// K d = 0 but d . f != 0.
 std::vector<std::string> unrestored(const Regime& s, const LinearMatrices& m,
                                     const VectorX& scale) {
   const MatrixX G = m.constraints * scale.asDiagonal();
@@ -76,7 +76,7 @@ std::vector<std::string> unrestored(const Regime& s, const LinearMatrices& m,
   const MatrixX K = free.transpose() * scale.asDiagonal() * m.stiffness * scale.asDiagonal() * free;
   const double weight = s.row_scale.segment(s.u0, s.n_u).cwiseProduct(scale).maxCoeff(),
                largest = K.rowwise().norm().maxCoeff();
-  MatrixX loose = MatrixX::Identity(K.rows(), K.rows()); // x with x . K = 0
+  MatrixX loose = MatrixX::Identity(K.rows(), K.rows()); // vectors x with x . K = 0
   if (largest > 1e-9 * weight)
     loose = null_space(K.transpose(), 1e-9 * std::max(1.0, weight / largest));
   const VectorX drift = loose * (loose.transpose() * forces);
@@ -104,13 +104,14 @@ std::string off_balance(const Regime& s, const LinearMatrices& m, const VectorX&
                               "mooring, a spring or hydrostatics");
 }
 
-/// The equations at a pose.
+/// Equations at a pose.
 struct Balance {
   LinearMatrices m;
   VectorX gaps;
-  double force_error = INFINITY, gap_error = INFINITY; ///< of weights and lengths
-  double rounding = 0.0; ///< of the forces, of weights, by that of the positions
-  std::string trouble;   ///< why they are missing; empty: they exist
+  double force_error = INFINITY, gap_error = INFINITY; ///< errors in units of weights and lengths
+  /// Rounding error of the forces by that of the positions, in units of weights
+  double rounding = 0.0;
+  std::string trouble; ///< reason why they are missing; empty: they exist
 
   bool holds() const {
     return force_error <= std::max(balanced, rounding) && gap_error <= balanced;
@@ -118,7 +119,7 @@ struct Balance {
   double error() const { return std::hypot(force_error, gap_error); }
 };
 
-/// Finds the static pose; scratch and scales of one search.
+/// Search for the static pose, with its scratch and scales.
 class Search {
 public:
   explicit Search(const Regime& system)
@@ -150,9 +151,9 @@ public:
     return out;
   }
 
-  /// Makes an implicit Euler step of pseudo-time tau, in units of weights and length scales; of
-  /// infinite tau, Newton's. Longer ones than `longest` are cut to that.
-  /// @returns its length before that; infinite: it is no number
+  /// Makes an implicit Euler step of pseudo-time tau, in units of weights and length scales;
+  /// infinite tau is a Newton step. Steps longer than `longest` are shortened.
+  /// @returns its length before that; infinite: not a number
   double step(const Balance& now, double tau, VectorX& y) const {
     const LinearMatrices& m = now.m;
     const Index n = s_.n_u + s_.n_lambda;
@@ -170,15 +171,15 @@ public:
     if (!x.allFinite())
       return INFINITY;
     const double length = x.head(s_.n_u).cwiseAbs().maxCoeff();
-    if (length > longest) // the reactions are taken whole: they are linear
+    if (length > longest) // the reactions are kept: they are linear
       x.head(s_.n_u) *= longest / length;
     system::retract(s_, x.head(s_.n_u).cwiseProduct(scale_), y);
     y.segment(s_.lambda0, s_.n_lambda) += x.tail(s_.n_lambda).cwiseProduct(units_);
     return length;
   }
 
-  /// Newton's method; the balance that it found, or where it ended, far from it or idle: without a
-  /// better one in many steps, none of which was cut.
+  /// Newton's method. Returns the balance found, or the last one if it diverges or stalls: many
+  /// unshortened steps without a better balance.
   Balance newton(VectorX& y) {
     constexpr double better = 0.9;
     double best = INFINITY;
@@ -197,8 +198,8 @@ public:
     }
   }
 
-  /// Throws ModelError where the rounding of positions alone, that of a body's place or turn in its
-  /// last digit, changes a load by a part of the weights that counts.
+  /// Throws ModelError if rounding of a body's place or rotation in the last digit changes a load
+  /// by a relevant part of the weights.
   void refuse_rounding(const VectorX& start) {
     constexpr double counts = 1e-3;
     VectorX y = start;
@@ -219,7 +220,7 @@ public:
             " is the weight; lower the largest stiffness there, or put a joint in its place");
   }
 
-  /// Creeps to the static pose, with pseudo-times that grow where steps go well and are not cut.
+  /// Creeps to the static pose, with pseudo-times that grow while steps succeed without shortening.
   std::optional<Balance> creep(VectorX& y) {
     constexpr double grow = 2.0, cut = 0.25, worse = 2.0, least = 1e-9, most = 1e9;
     Balance now = at(y);
@@ -251,7 +252,7 @@ public:
   }
 
 private:
-  /// What rounding of the positions makes of each load [N, N m] (n_u,).
+  /// Rounding error of each load by that of the positions [N, N m] (n_u,).
   VectorX rounding(const LinearMatrices& m, const VectorX& y) const {
     constexpr double last_digit = 2.2e-16;
     VectorX place = VectorX::Ones(s_.n_u);
@@ -269,7 +270,7 @@ private:
   VectorX residual_;
 };
 
-/// Rows that a drive moves have no static pose.
+/// Refuses rows with a moving drive: they have no static pose.
 void refuse_motion(const Regime& s, const VectorX& y) {
   system::Workspace<double> ws(s);
   VectorX r(s.n);

@@ -14,11 +14,11 @@ namespace {
 
 using system::Regime;
 
-constexpr double largest_gap = 1e-6; ///< gaps above this part of their scale are refused
+constexpr double largest_gap = 1e-6; ///< largest gap, in units of its scale
 constexpr double start_balanced = 1e-8;
 
-/// Is axis `axis` of both markers held parallel? Two rows keep the other axes of A perpendicular to
-/// it, or three rows tie all axes.
+/// Returns whether the joint keeps axis `axis` of both markers parallel: two rows keep the other
+/// axes of A perpendicular to it, or three rows hold all axes.
 bool tied(const joint::JointType& type, int axis) {
   int own = 0, all = 0;
   for (const joint::BasicRow& row : type.rows) {
@@ -32,7 +32,7 @@ bool tied(const joint::JointType& type, int axis) {
   return own == 2 || all == 3;
 }
 
-/// Throws when the row at velocity level (`lambda`) or position level (`mu`) does not hold.
+/// Throws if the row at velocity level (`lambda`) or position level (`mu`) does not hold.
 void check_row(const Regime& s, const VectorX& r, const std::string& key, Index lambda, Index mu,
                bool angle) {
   auto refuse = [&](Index row, const char* verb, const char* unit) {
@@ -45,7 +45,7 @@ void check_row(const Regime& s, const VectorX& r, const std::string& key, Index 
     refuse(lambda, "is", "/s");
 }
 
-/// Joints must be closed, on the right branch, and stay closed with the velocities given.
+/// Checks that joints are closed, on the right branch, and stay closed with the given velocities.
 void check_constraints(const Regime& s, const VectorX& y, const VectorX& r) {
   system::Workspace<double> ws(s);
   const VectorX rest = VectorX::Zero(s.n);
@@ -55,8 +55,8 @@ void check_constraints(const Regime& s, const VectorX& y, const VectorX& r) {
     for (const system::RowData& row : j.rows)
       if (s.holds(row))
         check_row(s, r, key, s.lambda(row), s.mu(row), joint::is_angle(row.kind));
-    // Rows of perpendicular axes also vanish when B is flipped. Axes that the joint ties stay
-    // aligned: those of which no row of the type measures the angle between like axes.
+    // Rows of perpendicular axes also vanish if B is flipped. Fixed axes must stay aligned: those
+    // of which no row of the type measures the angle between like axes.
     const auto g = system::joint_geometry<double>(j, ws.bodies);
     for (int axis = 0; axis < 3 && j.type->has_row<joint::PerpRow>(); ++axis)
       if (tied(*j.type, axis) && j.A.axes.col(axis).dot(g.N * j.B.axes.col(axis)) < 0.0)
@@ -68,11 +68,11 @@ void check_constraints(const Regime& s, const VectorX& y, const VectorX& r) {
                 s.motions[c.terms.front().motion].motion.is_angle());
 }
 
-/// Velocities that keep all rows again, where they are more than rounding off. An impulse acts over
-/// the mean of the rates before and after, those of a drive among them.
-/// @returns the work of the rows [J]; nothing: the velocities stay as they are
+/// Changes the velocities so that all rows hold, if they deviate by more than rounding. The work of
+/// an impulse is that at the mean of the rates before and after, drives included.
+/// @returns the work of the rows [J]; nothing: the velocities stay
 std::optional<double> jump(const Regime& s, double t, linalg::SaddlePoint& saddle, VectorX& y) {
-  constexpr double least_jump = 1e-9; // of the rates that count as one
+  constexpr double least_jump = 1e-9; // part of the unit rates
   VectorX struck = y;
   const linalg::SaddlePoint::Strike strike = saddle.strike(t, struck, VectorX::Zero(s.n_lambda));
   const auto scale = s.row_scale.segment(s.lambda0, s.n_lambda);
@@ -88,7 +88,7 @@ std::optional<double> jump(const Regime& s, double t, linalg::SaddlePoint& saddl
   return work;
 }
 
-/// Throws: names the body of the largest part of the direction `free` of u.
+/// Throws with the name of the body with the largest part in the direction `free` of u.
 [[noreturn]] void refuse_massless(const Regime& s, const VectorX& free) {
   Index most = 0;
   free.cwiseAbs().maxCoeff(&most);
@@ -113,7 +113,7 @@ std::optional<double> jump(const Regime& s, double t, linalg::SaddlePoint& saddl
   throw SolverError(0.0, {Reason::start, "a direction without inertia is held by nothing"});
 }
 
-/// The stabilised equations, as long as this object is there.
+/// Switches to the stabilised equations during its lifetime.
 class Stabilised {
 public:
   explicit Stabilised(Regime& s) : s_(s), formulation_(s.formulation) {

@@ -25,7 +25,7 @@ using system::BodyData;
 using system::Regime;
 using system::System;
 
-/// Takes positions from y into the start of the bodies and motions, at rest.
+/// Copies the positions of y into the start of the bodies and motions, at rest.
 void take_start(System& s, const VectorX& y) {
   system::Workspace<double> ws(s);
   const VectorX rest = VectorX::Zero(y.size());
@@ -44,7 +44,7 @@ void take_start(System& s, const VectorX& y) {
     s.motions[static_cast<std::size_t>(m)].start = system::motion_row<double>(s, ws, m).value;
 }
 
-/// Puts laws at rest in the place of those that have states for it.
+/// Replaces laws with states by laws at rest.
 /// @returns whether there are any
 bool take_statics(System& s) {
   bool any = false;
@@ -58,22 +58,22 @@ bool take_statics(System& s) {
   return any;
 }
 
-/// Is there a direction, free of the constraints, in which the forces drive the scene away? A note
-/// of it, or "".
+/// Note on a direction, allowed by the constraints, in which forces drive the scene away; ""
+/// for a stable pose.
 std::string instability(const LinearMatrices& m, const VectorX& scale) {
   const MatrixX G = m.constraints * scale.asDiagonal();
   const MatrixX free = null_space(G);
   if (free.cols() == 0)
     return "";
   const MatrixX K = free.transpose() * scale.asDiagonal() * m.stiffness * scale.asDiagonal() * free;
-  // The hydrostatics of modes have no potential by themselves: K need not be symmetric.
+  // The hydrostatics of modes have no potential of their own: K need not be symmetric.
   const VectorX values = Eigen::EigenSolver<MatrixX>(K, false).eigenvalues().real();
   return values.minCoeff() < -1e-6 * values.cwiseAbs().maxCoeff()
              ? "the equilibrium is unstable: the smallest displacement moves the scene away from it"
              : "";
 }
 
-/// What counts as a length, or an angle, of a coordinate.
+/// Unit length or angle of a coordinate.
 double size_of(const System& s, int motion) {
   const system::BodyData* b = system::moving_body(s, system::joint_of(s, motion));
   if (!b)
@@ -82,8 +82,8 @@ double size_of(const System& s, int motion) {
   return b->length_scale / (turns ? b->lever : 1.0);
 }
 
-/// Closes the stop that y violates most, or else opens the one that pulls most; false when every
-/// stop agrees with y. Dry friction stays open: it holds any pose near.
+/// Closes the stop that y violates most, or else opens the one that pulls most; returns false if
+/// every stop agrees with y. Dry friction stays open: it can hold any pose nearby.
 bool correct_stops(Regime& s, const VectorX& y) {
   using State = Regime::Mode;
   system::Workspace<double> ws(s);
@@ -119,7 +119,7 @@ bool correct_stops(Regime& s, const VectorX& y) {
   return which != nullptr;
 }
 
-/// Ropes that rub, which an equilibrium takes without their friction.
+/// Names of ropes with friction; an equilibrium neglects their friction.
 std::string rubbing_ropes(const System& s) {
   std::vector<std::string> names;
   for (const system::ElementList& list : s.elements)
@@ -134,7 +134,7 @@ constexpr const char* one_tension =
     " is left out of the equilibrium: they have one tension all along, and weights that friction "
     "alone holds start from a pose of their own";
 
-/// What a linear model about the equilibrium has to know.
+/// Notes switches and friction for a linear model about the equilibrium.
 void note_switches(const Regime& rows, System& s) {
   if (const std::string ropes = rubbing_ropes(s); !ropes.empty())
     s.notes.push_back("friction of ropes (" + ropes + ")" + one_tension +

@@ -1,5 +1,5 @@
 #pragma once
-/// The static pose of the whole constrained scene in still water.
+/// Static pose of the constrained scene in still water.
 
 #include "hydrodae/model/scene.h"
 #include "hydrodae/system/jacobian.h"
@@ -11,9 +11,9 @@ namespace hydrodae::statics {
 ///
 ///   M xi'' + C xi' + K xi - G^T dlambda = 0,   G xi = 0
 ///
-/// K holds the geometric stiffness of the reactions in `y`. Memory states of the radiation are left
-/// out; states z of forces add F_z z to the loads, z' = A z + B xi + D xi'. Algebraic unknowns are
-/// eliminated.
+/// K contains the geometric stiffness of the reactions in `y`. Memory states of the radiation are
+/// omitted; states z of forces add F_z z to the loads, z' = A z + B xi + D xi'. Algebraic unknowns
+/// are eliminated.
 struct LinearMatrices {
   MatrixX mass, damping, stiffness;                   ///< M, C, K (n_u, n_u)
   MatrixX constraints;                                ///< G (n_lambda, n_u)
@@ -22,35 +22,34 @@ struct LinearMatrices {
   VectorX forces; ///< (n_u,) G^T lambda plus all loads: zero in equilibrium
 };
 
-/// At (t = 0, y, y' = 0); y must be at rest.
+/// Matrices at (t = 0, y, y' = 0); y must be at rest.
 LinearMatrices linear_matrices(const system::Regime& regime, const system::Pattern& pattern,
                                const VectorX& y);
 
-/// T (n_moving, n_u) of the hydrodynamic velocities U = T xi'.
+/// Map T (n_moving, n_u) of the hydrodynamic velocities U = T xi'.
 MatrixX hydro_map(const system::Regime& regime, const system::Workspace<double>& workspace);
 
-/// A scene at rest.
+/// Scene at rest.
 struct Rest {
-  VectorX y;                               ///< with the reactions
-  std::vector<system::Regime::Mode> modes; ///< (n_switches,) which stops hold
-  std::string instability;                 ///< the note of it, where the pose is unstable
+  VectorX y;                               ///< pose with the reactions
+  std::vector<system::Regime::Mode> modes; ///< (n_switches,) states of the switches
+  std::string instability;                 ///< note on an unstable pose; empty: stable
 };
 
-/// Newton's method on forces(q, lambda) = 0, g(q) = 0 from the start of the system, without waves.
-/// States of forces, such as pressures, are held; dynamic lines are at rest; the motion is the
-/// smallest along directions in which nothing holds a body. Moves the start of the system
-/// there. An unstable pose is noted. Throws ModelError when there is no equilibrium near, or
-/// velocities are given.
+/// Moves the start of the system to the equilibrium: Newton's method on forces(q, lambda) = 0, g(q)
+/// = 0 from the start, without waves. States of forces, such as pressures, are constant; dynamic
+/// lines are at rest; the motion is smallest along directions in which nothing holds a body. An
+/// unstable pose is noted. Throws ModelError if no equilibrium is near, or velocities are given.
 Rest move_to_equilibrium(system::System& system);
 
-/// `move_to_equilibrium`, with the mean yaw of the hydrodynamic bodies that of the equilibrium.
+/// Calls `move_to_equilibrium`, with the mean yaw of the hydrodynamic bodies from the equilibrium.
 Rest settle(const model::Scene& scene, system::System& system);
 
-/// `build`, with the start moved to the equilibrium where the scene asks for it; what looks wrong
-/// in the scene or its memory fit is noted.
+/// Calls `build`, moves the start to the equilibrium if the scene requests it, and notes findings
+/// on the scene and its memory fit.
 system::System starting_system(const model::Scene& scene);
 
-/// The same without a look at what may be wrong.
+/// System without the findings.
 system::System bare_system(const model::Scene& scene);
 
 } // namespace hydrodae::statics

@@ -22,13 +22,15 @@ namespace {
 using sanity::Finding;
 using Complex = std::complex<double>;
 
-/// Of the rms motion of a coordinate: reported, and serious.
+/// Difference relative to the rms motion of a coordinate: reported, and serious.
 constexpr double off_worth_saying = 0.01, off_too_large = 0.1;
-constexpr double unseen = 0.02;                ///< of the largest motion of its unit
-constexpr Index most_coordinates = 300;        ///< the matrices are dense
-constexpr std::size_t frequencies_judged = 64; ///< of a wave system, evenly picked
+/// Negligible motion, as part of the largest of its unit
+constexpr double unseen = 0.02;
+constexpr Index most_coordinates = 300; ///< the matrices are dense
+/// Largest number of judged components of a wave system, evenly chosen
+constexpr std::size_t frequencies_judged = 64;
 
-/// Coordinates that move in the water, and where they stand in the tables and in the fit.
+/// Moving coordinates in the water, with their indices in the tables and in the fit.
 struct Coordinates {
   std::vector<std::string> labels;
   std::vector<int> table, input, output;
@@ -46,8 +48,8 @@ struct Coordinates {
   }
 };
 
-/// H(iw) of a fit (m, m): f_rad = -Re(C z), so that H is the mean of C (iw - p)^-1 B and of the
-/// same with the conjugates of C, p and B.
+/// Transfer function H(iw) of a fit (m, m): f_rad = -Re(C z), so that H is the mean of C (iw -
+/// p)^-1 B and of the same with conjugate C, p and B.
 Eigen::MatrixXcd transfer(const hydro::MemoryFit& fit, const Coordinates& of, double omega) {
   const Eigen::MatrixXcd B = fit.input_matrix(Eigen::all, of.input),
                          C = fit.output_matrix(of.output, Eigen::all);
@@ -58,7 +60,7 @@ Eigen::MatrixXcd transfer(const hydro::MemoryFit& fit, const Coordinates& of, do
           C.conjugate() * (iw - p.conjugate()).inverse().matrix().asDiagonal() * B.conjugate());
 }
 
-/// The equations about the start, at rest, in the motions that the constraints leave.
+/// Equations linearised at the start, at rest, in the motions that the constraints allow.
 struct Linear {
   LinearMatrices m;
   MatrixX free, map; ///< N (n_u, n_free) with G N = 0, T (m, n_u)
@@ -69,7 +71,7 @@ struct Linear {
     const system::Pattern pattern = system::find_pattern(s);
     m = linear_matrices(s, pattern, y);
     free = MatrixX::Identity(s.n_u, s.n_u);
-    if (s.n_lambda > 0) { // the reactions are a part of the stiffness
+    if (s.n_lambda > 0) { // the reactions add to the stiffness
       const Eigen::ColPivHouseholderQR<MatrixX> rows(m.constraints.transpose());
       y.segment(s.lambda0, s.n_lambda) += rows.solve(-m.forces);
       m = linear_matrices(s, pattern, y);
@@ -81,7 +83,7 @@ struct Linear {
     map = hydro_map(s, ws) * free;
   }
 
-  /// U / (iw) (m,) of loads (m,), with the radiation H (m, m).
+  /// Motion U / (iw) (m,) by loads (m,), with the radiation H (m, m).
   Eigen::VectorXcd motion(double omega, const Eigen::MatrixXcd& H,
                           const Eigen::VectorXcd& force) const {
     const Complex iw(0.0, omega);
@@ -96,7 +98,7 @@ struct Linear {
   }
 };
 
-/// Sum of |amplitude|^2 by frequency of the tables (its place) and heading.
+/// Sum of |amplitude|^2 by table frequency (its index) and heading.
 std::map<std::pair<Index, double>, double> at_table(const VectorX& omega,
                                                     const std::vector<sea::Component>& components) {
   std::map<std::pair<Index, double>, double> out;
@@ -109,7 +111,7 @@ std::map<std::pair<Index, double>, double> at_table(const VectorX& omega,
   return out;
 }
 
-/// The tables, the fit, and what they make of waves.
+/// Comparison of the motions in waves by the tables and by the fit.
 struct Comparison {
   const hydro::Database& db;
   const hydro::MemoryFit& fit;
@@ -133,7 +135,7 @@ struct Comparison {
     return out;
   }
 
-  /// Adds the squares of the motions by the tables, and of the differences, of one frequency.
+  /// Adds the squared motions by the tables, and the squared differences, at one frequency.
   void add(Index row, double heading, double weight, VectorX& size, VectorX& miss) const {
     const double omega = db.omega[row];
     const std::optional<Eigen::VectorXcd> load = force(omega, heading);
@@ -150,7 +152,7 @@ struct Comparison {
   }
 };
 
-/// The coordinate whose motion differs most, and by how much of it.
+/// Coordinate with the largest relative difference, and that difference.
 std::pair<std::size_t, double> worst(const Coordinates& of, const VectorX& size,
                                      const VectorX& miss) {
   const auto turns = [&](std::size_t k) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The memory fit of a run against the tables of its database, at the frequencies of the waves.
+/// Comparison of the memory fit of a run with the tables of its database, at the wave frequencies.
 
 #include <vector>
 
@@ -11,10 +11,10 @@ namespace hydrodae::statics {
 ///
 /// A fit is made for a band of frequencies, the tables hold more. The equations are linearised
 /// about the start, once with H = B + iw (A - A_inf) of the tables and once with that of the fit.
-/// Both are solved for the forces of each wave system, at the frequencies of the tables nearest to
-/// its components. The finding is the rms difference of the coordinate that differs most, over its
-/// rms. More than 1 % is reported, more than 10 % serious. Nothing is judged without an exponential
-/// fit, with tables over poses, and beyond 300 coordinates.
+/// Both are solved for the forces of each wave system, at the table frequencies nearest to its
+/// components. The finding is the rms difference of the coordinate that differs most, relative to
+/// its rms. More than 1 % is reported, more than 10 % serious. Scenes without an exponential fit,
+/// with pose tables, or with more than 300 coordinates are not judged.
 std::vector<sanity::Finding> look_at_fit(const model::Scene& scene, const system::System& system);
 
 } // namespace hydrodae::statics

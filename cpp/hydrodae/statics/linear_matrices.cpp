@@ -1,4 +1,4 @@
-/// The linear model about a pose at rest.
+/// Linear model about a pose at rest.
 
 #include "hydrodae/math/dense.h"
 #include "hydrodae/statics/equilibrium.h"
@@ -11,8 +11,8 @@ using system::Regime;
 
 namespace {
 
-/// Takes the algebraic unknowns out of the states, z_a = -A_aa^-1 (A_ad z_d + B_a xi + D_a xi'), so
-/// that stiffness, damping and the loads of the others hold what they carry.
+/// Eliminates the algebraic unknowns, z_a = -A_aa^-1 (A_ad z_d + B_a xi + D_a xi'), which adds
+/// their effects to stiffness, damping and the loads of the other states.
 void take_out_algebraic(const Regime& s, LinearMatrices& m) {
   std::vector<Index> a, d;
   for (Index z = s.z0; z < s.memory0; ++z)

@@ -9,9 +9,9 @@ namespace hydrodae::statics {
 
 namespace {
 
-constexpr Index most_dense = 250; ///< unknowns
+constexpr Index most_dense = 250; ///< unknowns of a dense solve
 
-/// A + d diag(1, -1) by columns, and its factors.
+/// Columns of A + d diag(1, -1), with its factors.
 linalg::SparseLu<double> shifted(const MatrixX& A, Index n_u, double d) {
   std::vector<Index> start{0}, row;
   std::vector<double> values;
@@ -28,8 +28,8 @@ linalg::SparseLu<double> shifted(const MatrixX& A, Index n_u, double d) {
   return lu;
 }
 
-/// Pivots below this part of the largest are those of directions that nothing holds: next to a
-/// spring much stiffer than weights over lengths, what is soft still holds, down to rounding.
+/// Pivot below which nothing holds a direction, as part of the largest. Next to a spring much
+/// stiffer than weights over lengths, soft directions still hold, down to rounding.
 double rank_threshold(const MatrixX& A) {
   constexpr double usual = 1e-12, soft = 1e-9, rounded = 1e-14;
   return std::clamp(soft / std::max(A.cwiseAbs().maxCoeff(), soft), rounded, usual);
@@ -51,7 +51,7 @@ VectorX smallest_solution(const MatrixX& A, const VectorX& b, Index n_u) {
     lu.solve(change.data());
     const VectorX now = b - A * (x + change);
     if (!(now.norm() < left.norm()))
-      return k == 0 ? change : x; // what is left has no solution
+      return k == 0 ? change : x; // the remainder has no solution
     x += change;
     left = now;
   }

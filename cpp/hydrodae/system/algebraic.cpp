@@ -8,9 +8,10 @@ namespace hydrodae::system {
 namespace {
 
 constexpr int most_steps = 50;
-constexpr double solved = 1e-11; ///< last change, beside the size of the unknown and its scale
+/// Largest last change at the solution, relative to the size of the unknown plus its scale
+constexpr double solved = 1e-11;
 
-/// One step of Newton's method for all laws of a list; the largest change, relative.
+/// Newton step for all laws of a list; returns the largest relative change.
 double newton_step(const Regime& s, const ElementList& list, JacobianWorkspace& ws, double t,
                    VectorX& y) {
   const element::Elements& laws = *list.laws;
@@ -48,7 +49,7 @@ bool solve_algebraic(const Regime& s, JacobianWorkspace& ws, double t, VectorX& 
   for (const ElementList& list : s.elements) {
     if (list.laws->shape.n_algebraic == 0)
       continue;
-    if (!known) { // laws with unknowns of their own see no accelerations
+    if (!known) { // laws with unknowns of their own read no accelerations
       unpack<double>(s, y.data(), y.data(), ws.state.bodies);
       ws.state.time = t;
       ws.state.past = past_at(s, t);

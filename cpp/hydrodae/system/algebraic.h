@@ -5,10 +5,10 @@
 
 namespace hydrodae::system {
 
-/// Takes the algebraic unknowns of elements to where 0 = h(x, v, z), law by law, from where they
-/// are in y by Newton's method; all else of y stays.
-/// @param ws  follows angles over turns
-/// @returns false where there is no solution near
+/// Solves 0 = h(x, v, z) for the algebraic unknowns of elements, law by law, by Newton's method.
+/// The iteration starts from their values in y and changes nothing else in y.
+/// @param ws  its `turns` fix the turn of each angle
+/// @returns false if the iteration finds no solution near the start
 bool solve_algebraic(const Regime& system, JacobianWorkspace& ws, double t, VectorX& y);
 
 } // namespace hydrodae::system

@@ -1,6 +1,6 @@
 #pragma once
-/// The assembly of the Jacobian: constraint rows and rigid bodies; laws and the water are in
-/// assembly_elements.h and assembly_water.h.
+/// Assembly of the Jacobian: constraint rows and rigid bodies. assembly_elements.h has the laws,
+/// assembly_water.h the water.
 
 #include "hydrodae/math/dual.h"
 #include "hydrodae/system/mass.h"
@@ -13,13 +13,14 @@ using joint::Vector12;
 using RowVector3 = Eigen::Matrix<double, 1, 3>;
 using RowVector6 = Eigen::Matrix<double, 1, 6>;
 
-/// The assembly, written once for both sinks. "Tangent" columns are virtual displacements
-/// (translations in world axes, rotations in body axes); they become columns of position unknowns
-/// through `tangent` of the body.
+/// Assembly, one template for both sinks (pattern and values). "Tangent" columns are virtual
+/// displacements: translations in world axes, rotations in body axes. The map `tangent` of the body
+/// turns them into columns of position unknowns.
 template <class Sink> struct Assembly {
   using Rotation = BodyData::Rotation;
-  static constexpr bool whole = Sink::whole;   ///< else what accelerations need
-  static constexpr bool memory = Sink::memory; ///< else its rows are those of the identity
+  /// True: all entries; false: only those that accelerations need
+  static constexpr bool whole = Sink::whole;
+  static constexpr bool memory = Sink::memory; ///< false: memory rows are rows of the identity
   const Regime& s;
   JacobianWorkspace& ws;
   const double t;
@@ -37,7 +38,7 @@ template <class Sink> struct Assembly {
     rotation_columns(row, body, d.tail<3>());
   }
 
-  /// The same for a derivative `d` with respect to the virtual rotation alone.
+  /// Derivative `d` of row `row` with respect to the virtual rotation of `body` alone.
   void rotation_columns(Index row, int body, const RowVector3& d) {
     const BodyData& b = s.bodies[body];
     const Index q = b.q0 + b.n_translations;
@@ -60,7 +61,7 @@ template <class Sink> struct Assembly {
       sink.by_yp(row, b.u0 + k, d[b.active[k]]);
   }
 
-  /// Momentum rows of `body` lose a load whose derivative is `d` (tangent rows).
+  /// Subtracts from the momentum rows of `body` a load with the derivative `d` (tangent rows).
   void load_by_displacement(int body, int other, const Matrix6& d) {
     const BodyData& b = s.bodies[body];
     for (int k = 0; k < b.n_active; ++k)
@@ -77,8 +78,8 @@ template <class Sink> struct Assembly {
       acceleration_columns(b.u0 + k, other, -d.row(b.active[k]));
   }
 
-  /// Position rows of `body` lose E(q) d for a change d of the tangent velocity, column by column:
-  /// `emit(row, weights)` with weights (1, 6) of the tangent rows.
+  /// Subtracts from the position rows of `body` E(q) d, for a change d of the tangent velocity,
+  /// column by column: `emit(row, weights)` with weights (1, 6) of the tangent rows.
   template <class Emit> void position_rows(int body, Emit&& emit) {
     const BodyData& b = s.bodies[body];
     for (int k = 0; k < b.n_active; ++k)
@@ -144,9 +145,9 @@ template <class Sink> struct Assembly {
   }
 };
 
-/// What one constraint row adds: its own two rows, and its columns in the rows of the bodies.
-/// In index 1 the derivative of u . T u by the pose is left out: it is of the order h^2 u^2 beside
-/// the rest, and only slows Newton's iteration.
+/// Columns of one constraint: its two rows, and its reaction in the momentum rows of the bodies.
+/// Index 1 omits the derivative of u . T u by the pose: it is of order h^2 u^2 relative to the rest
+/// and only slows Newton's iteration.
 template <class Sink>
 void Assembly<Sink>::constraint_row(const JointData& j, Index lambda, Index mu,
                                     const Vector12& gradient, const Matrix12& curvature,
@@ -184,7 +185,7 @@ void Assembly<Sink>::constraint_row(const JointData& j, Index lambda, Index mu,
   }
 }
 
-/// How G^T lambda and G^T mu of a joint turn with the poses of its bodies.
+/// Derivatives of G^T lambda and G^T mu of a joint by the poses of its bodies.
 template <class Sink>
 void Assembly<Sink>::constraint_curvature(const JointData& j, const Matrix12& by_lambda,
                                           const Matrix12& by_mu) {
@@ -245,7 +246,7 @@ template <class Sink> void Assembly<Sink>::couplers() {
   }
 }
 
-/// The poses of a joint with their rates as dual parts.
+/// Poses of the bodies of a joint, with their rates as dual parts.
 inline joint::Geometry<Dual> moving_geometry(const JointData& j,
                                              const std::vector<BodyState<double>>& bodies) {
   Vec3<Dual> r[2];
@@ -267,7 +268,7 @@ inline joint::Geometry<Dual> moving_geometry(const JointData& j,
   return joint::geometry<Dual>(j.B, r[0], R[0], r[1], R[1]);
 }
 
-/// G of one velocity row, and (dG/dt) u.
+/// Row of G of one velocity constraint, and its (dG/dt) u.
 template <class Sink>
 void Assembly<Sink>::velocity_row(const JointData& j, Index lambda, double factor,
                                   const joint::Row<Dual>& row, const Vector12& u) {
@@ -317,7 +318,7 @@ template <class Sink> void Assembly<Sink>::coupler_accelerations() {
   }
 }
 
-/// (M + D A_inf D^T) u'.
+/// Mass matrix times accelerations, (M + D A_inf D^T) u'.
 template <class Sink> void Assembly<Sink>::masses() {
   mass(s, ws, [this](int i, int j, const Matrix6& block) {
     const BodyData& b = s.bodies[i];
@@ -326,7 +327,7 @@ template <class Sink> void Assembly<Sink>::masses() {
   });
 }
 
-// Gyroscopic moments, and the position rows q' - E(q) (u + G^T mu) - sigma p.
+// Gyroscopic moments in the momentum rows; position rows q' - E(q) (u + G^T mu) - sigma p.
 template <class Sink> void Assembly<Sink>::body_rows() {
   for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i) {
     const BodyData& b = s.bodies[i];

@@ -1,13 +1,13 @@
 #pragma once
-/// Of the assembly (assembly.h): the laws of System::elements.
+/// Part of the assembly (assembly.h) for the laws of System::elements.
 
 #include "hydrodae/system/assembly.h"
 #include "hydrodae/system/mechanisms.h"
 
 namespace hydrodae::system {
 
-/// Load W^T f(x, v, z) on the bodies, and rows z' - h(x, v, z) = 0, by the law's own Jacobian
-/// d(f, h) / d(x, v, z), column by column.
+/// Load W^T f(x, v, z) on the bodies, and rows z' - h(x, v, z) = 0, from the Jacobian d(f, h) /
+/// d(x, v, z) of the law, column by column.
 template <class Sink>
 template <int w, int n>
 void Assembly<Sink>::law(const PortGradient<w, n>& port, const std::array<int, 2>& bodies,
@@ -47,7 +47,7 @@ void Assembly<Sink>::law(const PortGradient<w, n>& port, const std::array<int, 2
   law_states(jacobian, shape, z);
 }
 
-/// How the unknowns of a law act on their own rows.
+/// Derivatives of the rows of a law by its own unknowns.
 template <class Sink>
 void Assembly<Sink>::law_states(const double* jacobian, const element::Shape& shape, Index z) {
   const int n = shape.n_states;
@@ -60,7 +60,7 @@ void Assembly<Sink>::law_states(const double* jacobian, const element::Shape& sh
   }
 }
 
-/// How the multipliers of its joint act on a law that feels its reaction.
+/// Derivatives of a law by the multipliers of its joint, for laws that depend on the reaction.
 template <class Sink>
 void Assembly<Sink>::law_by_reaction(const PortData& data, const PortGradient<1, 12>& port,
                                      const double* jacobian, const element::Shape& shape, Index z) {
@@ -83,7 +83,7 @@ void Assembly<Sink>::law_by_reaction(const PortData& data, const PortGradient<1,
   }
 }
 
-/// The same of a law along several motions: load W_b^T f_b(x, v, z) by each motion a,
+/// Law along several motions: load W_b^T f_b(x, v, z), differentiated by each motion a,
 ///
 ///   dx_a = W_a dxi,   dv_a = W_a du + (T_a^T u) dxi,   d(W_a^T f_a) = f_a T_a dxi
 template <class Sink>
@@ -130,7 +130,7 @@ void Assembly<Sink>::law_of_coordinates(const PortData& port, const Vector12* ro
   }
 }
 
-/// The same of a law on points of bodies.
+/// Law on points of bodies, with a full Jacobian.
 template <class Sink>
 void Assembly<Sink>::law_of_points(const PortData& port, const double* load, const double* jacobian,
                                    const element::Shape& shape, Index z) {
@@ -146,7 +146,7 @@ void Assembly<Sink>::law_of_points(const PortData& port, const double* load, con
     const PointGradient seen = point_gradient(state(point.body), point.point, load + 3 * a);
     const Matrix36 &A = seen.A, &V = seen.V;
     load_by_displacement(point.body, point.body, seen.turn);
-    for (Index b = 0; b < n; ++b) { // what the motion of this point does to the loads at all
+    for (Index b = 0; b < n; ++b) { // derivatives of all loads by the motion of this point
       const joint::Marker& other = port.points[static_cast<std::size_t>(b)];
       if (other.body < 0)
         continue;
@@ -170,7 +170,7 @@ void Assembly<Sink>::law_of_points(const PortData& port, const double* load, con
   }
 }
 
-/// The same by the entries of the Jacobian in the list.
+/// Law on points of bodies, with the nonzeros of its Jacobian listed in `sparsity`.
 template <class Sink>
 void Assembly<Sink>::sparse_law_of_points(const PortData& port, const double* load,
                                           const double* values, const element::Elements& laws,
@@ -186,7 +186,7 @@ void Assembly<Sink>::sparse_law_of_points(const PortData& port, const double* lo
     }
   for (int k = 0; k < shape.n_states - shape.n_algebraic; ++k)
     sink.by_yp(z + k, z + k, 1.0);
-  // What the motion of one body does: rows (1, 6) by its displacement and its velocity.
+  // Derivatives by the motion of one body: rows (1, 6) by its displacement and its velocity.
   const auto of_motion = [&](int column, double value, auto&& emit) {
     const bool rate = column >= w;
     const int at = rate ? column - w : column;
@@ -228,7 +228,7 @@ void Assembly<Sink>::sparse_law_of_points(const PortData& port, const double* lo
   }
 }
 
-/// Of a load in the water, whose Jacobian is by the tangent coordinates of its body.
+/// Load in the water; the Jacobian is by the tangent coordinates of its body.
 template <class Sink>
 void Assembly<Sink>::law_in_water(int body, const double* jacobian, bool feels_rates) {
   const Eigen::Map<const Eigen::Matrix<double, 6, 18>> J(jacobian);
@@ -250,7 +250,7 @@ template <class Sink> void Assembly<Sink>::add(const ElementList& list) {
   gather<double>(s, list, ws.state, y, scratch);
   const double* in = scratch.in.data();
   const double* signals = s.held(list, t, scratch.held);
-  if (!shape.in_water()) // whose Jacobian holds how the load turns
+  if (!shape.in_water()) // laws in water: the Jacobian already contains the rotation of the load
     list.laws->evaluate(t, in, signals, scratch.out.data());
   list.laws->jacobian(t, in, signals, ws.element_jacobian.data());
   const double *load = scratch.out.data(), *J = ws.element_jacobian.data();

@@ -1,5 +1,5 @@
 #pragma once
-/// Of the assembly (assembly.h): added mass and radiation.
+/// Part of the assembly (assembly.h) for added mass and radiation.
 
 #include "hydrodae/system/assembly.h"
 #include "hydrodae/system/mass.h"
@@ -11,11 +11,12 @@ using water::HydroLoadGradient;
 using water::HydroMotionGradient;
 using water::Matrix63;
 
-/// What the motion of body j loads body i with by the water; the inertia is that of `mass`.
+/// Derivatives of the water load on body i by the motion of body j; `mass` adds the inertia.
 template <class Sink>
 void Assembly<Sink>::hydro_pair(const HydroBody& i, const HydroBody& j, const Matrix6& L,
                                 const Matrix6& Q) {
-  const bool follow = s.hydro.axes != HydroAxes::mean; // else U' is linear in the accelerations
+  // mean axes: U' is linear in the accelerations
+  const bool follow = s.hydro.axes != HydroAxes::mean;
   const bool blends = &i == &j && i.table >= 0;
   const bool convolved = !s.hydro.convolution.empty() && ws.state.past;
   const HydroMotionGradient d = hydro_motion_gradient(s.hydro.axes, j, state(j.body));
@@ -64,7 +65,7 @@ void Assembly<Sink>::memory_columns(const HydroBody& i, const std::vector<int>& 
   }
 }
 
-/// What the pose s of a body with a table adds:
+/// Derivatives of the load on a body with a pose table by its pose s:
 ///   d load = (L (A' U' + s' A'' U + B' U + C W' z) + Q A' U - 1/2 (U.A'' U) g) ds + L A' U ds'
 ///            - g U.A' dU - 1/2 (U.A' U) dg,     ds = g.dx, ds' = g.d(v, w) + w.dg
 template <class Sink>
@@ -109,7 +110,7 @@ void Assembly<Sink>::table_columns(std::size_t number, const HydroLoadGradient& 
   load_by_velocity(hb.body, hb.body, -by_velocity);
 }
 
-// load_i = L (A U' + C z) + Q A U with the poses inside L and Q differentiated as well.
+// Derivatives of load_i = L (A U' + C z) + Q A U by the poses in L and Q.
 template <class Sink>
 void Assembly<Sink>::hydro_body(std::size_t number, const Vector6& rate, const Vector6& momentum) {
   const HydroBody& i = s.hydro.bodies[number];
@@ -165,7 +166,7 @@ template <class Sink> void Assembly<Sink>::memory_rows() {
 }
 
 template <class Sink> void Assembly<Sink>::add(const HydroData& h) {
-  if (!whole) // what accelerations feel of the water is in `mass`
+  if (!whole) // `mass` adds the water's part of accelerations
     return;
   Workspace<double>& w = ws.state;
   hydro_loads<double>(s, w, y + h.z0);

@@ -29,7 +29,7 @@ void add_port_channels(const System& s, const element::Elements& laws, const Por
                    "Power that it takes out of the motion: minus load times rate."});
 }
 
-/// Own channels of one law: what its port shows, states, and what it declares.
+/// Channels of one law: inputs at its port, its states, and the channels that it declares.
 void add_channels(const System& s, const element::Elements& laws, std::size_t law,
                   const PortData& port, std::vector<Channel>& out) {
   const std::string head = laws.path(law, "") + "/";
@@ -47,7 +47,7 @@ void add_channels(const System& s, const element::Elements& laws, std::size_t la
                    std::string(q.doc)});
 }
 
-/// A state z' = p z + B U follows U / |p|.
+/// Memory state z' = p z + B U; its size is that of U / |p|.
 std::vector<element::Unknown> memory_unknowns(const System& s, const HydroData& h) {
   VectorX drive = VectorX::Zero(h.n_states);
   for (const HydroData::Input& in : h.inputs) {
@@ -77,7 +77,7 @@ void declare(const System& s, const ElementList& list, Declaration& out) {
       if (body >= 0)
         out.loads.push_back({component, body, work});
     };
-    int last = -1; // that moves
+    int last = -1; // last body that moves, by number
     std::size_t point = 0;
     for_each_body(s, port, [&](int body) {
       if (laws.shape.port != element::Port::points || is_first_of_its_body(port, point++))
@@ -102,7 +102,7 @@ void declare(const System& s, const ElementList& list, Declaration& out) {
 }
 
 void declare(const System& s, const HydroData& h, Declaration& out) {
-  int last = -1; // that moves
+  int last = -1; // last body that moves, by number
   for (const HydroBody& hb : h.bodies) {
     out.loads.push_back({"added_mass_inf", hb.body, element::Work::fluid});
     if (h.radiates())

@@ -1,7 +1,7 @@
 #pragma once
-/// What all that loads the bodies declares of itself, list by list (`for_each_list`). The layout of
-/// its states, their names and tolerances, the groups of bodies, what elements cost, the balance of
-/// energy and the results follow from this.
+/// Declarations of everything that loads the bodies, list by list (`for_each_list`). The layout,
+/// names and tolerances of states, the groups of bodies, the cost of elements, the energy balance
+/// and the results follow from them.
 
 #include "hydrodae/core/channel.h"
 #include "hydrodae/system/system.h"
@@ -9,22 +9,23 @@
 namespace hydrodae::system {
 
 struct Declaration {
-  /// A load on one body that is reported, under the name of a component.
+  /// Load on one body in the results, under the name of its component.
   struct Load {
     std::string component;
     int body = 0;
     element::Work work = element::Work::spent;
   };
-  std::vector<StateBlock> states;        ///< in the order of y
-  std::vector<Load> loads;               ///< in the order in which the observer takes them
-  std::vector<std::array<int, 2>> pairs; ///< bodies that feel each other, -1: the ground
-  std::vector<Channel> channels; ///< what is reported beside the loads, see Observation::elements
+  std::vector<StateBlock> states;        ///< states in the order of y
+  std::vector<Load> loads;               ///< loads in the order in which the observer takes them
+  std::vector<std::array<int, 2>> pairs; ///< bodies that act on each other; -1: the ground
+  /// Channels in the results besides the loads, see Observation::elements
+  std::vector<Channel> channels;
 };
 
 void declare(const System& system, const ElementList& list, Declaration& out);
 void declare(const System& system, const HydroData& hydro, Declaration& out);
 
-/// That of all lists.
+/// Declaration of all lists of the system.
 Declaration declare(const System& system);
 
 } // namespace hydrodae::system

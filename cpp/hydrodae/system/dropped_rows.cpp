@@ -28,7 +28,7 @@ DroppedRows::DroppedRows(const Regime& s) : s_(s), workspace_(s), rest_(VectorX:
     }
 }
 
-/// Gap of a coupler at its own level, and the size that it is judged by.
+/// Gap of a coupler at its own level (position or rate), and the size that normalises it.
 double DroppedRows::gap(const CouplerRow& row, double t, double& size) {
   const CouplerData& c = *row.coupler;
   const std::array<double, 3> drive = s_.drive(c, t);
@@ -48,7 +48,7 @@ double DroppedRows::gap(const CouplerRow& row, double t, double& size) {
     size = std::max(size, std::abs(rate));
   }
   const bool angle = s_.motions[static_cast<std::size_t>(c.terms.front().motion)].motion.is_angle();
-  // The turns of the start are not those of y.
+  // The number of turns at the start is not known in y.
   return angle && !c.velocity_level ? std::remainder(sum, 2.0 * pi) : sum;
 }
 

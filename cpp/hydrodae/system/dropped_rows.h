@@ -1,6 +1,6 @@
 #pragma once
-/// Constraint rows that the assembly left out because they follow from others: their gaps are the
-/// proof that they do.
+/// Gaps of redundant constraint rows, which the assembly leaves out because they follow from
+/// others. A gap that stays zero proves it.
 
 #include <string>
 
@@ -9,25 +9,27 @@
 
 namespace hydrodae::system {
 
-/// Arm of the smaller of the bodies of a joint that move [m].
+/// Arm of the body with the smaller arm, among the moving bodies of a joint [m].
 double smaller_arm(const System& system, const JointData& joint);
 
 class DroppedRows {
 public:
-  /// The regime must outlive it, with the same layout of positions and velocities.
+  /// @param regime  must outlive this object and keep its layout of positions and velocities
   explicit DroppedRows(const Regime& regime);
 
   bool empty() const { return joints_.empty() && couplers_.empty(); }
 
-  /// A gap of a position row [m or rad], or of a rate row [m/s or rad/s].
+  /// Gap of a position row [m or rad] or of a rate row [m/s or rad/s].
   struct Gap {
-    std::string key, name; ///< "joint.lower", "joints/lower gap along x"; empty: none was left out
+    /// "joint.lower", "joints/lower gap along x"; empty: no row was left out
+    std::string key, name;
     double gap = 0.0;
-    double part = 0.0; ///< of the arm or of one radian; of a rate, of the largest rate in the row
+    /// Gap relative to the arm or one radian; of a rate row, to its largest rate
+    double part = 0.0;
     const char* unit = "";
   };
 
-  /// The largest gap, by its part, at y and t.
+  /// Largest relative gap (`part`) at time t and state y.
   Gap largest(double t, const VectorX& y);
 
 private:

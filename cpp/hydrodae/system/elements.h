@@ -1,6 +1,6 @@
 #pragma once
-/// From the bodies to what the laws of System::elements see, and from their loads back to the
-/// bodies (element/elements.h says what each port is).
+/// Inputs of the laws of System::elements from the bodies, and their loads back onto the bodies.
+/// element/elements.h defines the ports.
 
 #include <algorithm>
 #include <limits>
@@ -9,13 +9,13 @@
 
 namespace hydrodae::system {
 
-/// Of a list in System::elements.
+/// Index of a list in System::elements.
 inline std::size_t index_of(const Regime& s, const ElementList& list) {
   return static_cast<std::size_t>(&list - s.elements.data());
 }
 
-/// s and s' of the motion of a port, with the gradient of s. A delayed law sees those of the past,
-/// or without a past the place where the motion stands, at rest.
+/// Coordinate s and rate s' of the motion of a port, with the gradient of s. A delayed law receives
+/// those of the past; without a history, the present coordinate and zero rate.
 template <class S>
 void see_motion(const Regime& s, const Workspace<S>& ws, const PortData& port, S* x, S* v,
                 joint::Vec12<S>& gradient) {
@@ -33,7 +33,7 @@ void see_motion(const Regime& s, const Workspace<S>& ws, const PortData& port, S
            : row.gradient.cwiseProduct(joint_velocity<S>(s.joints[port.joint], ws.bodies)).sum();
 }
 
-/// Several motions, their rates, and the gradients of the motions.
+/// Coordinates of several motions, their rates, and their gradients.
 template <class S>
 void see_motions(const Regime& s, const Workspace<S>& ws, const PortData& port, S* x, S* v,
                  joint::Vec12<S>* rows) {
@@ -47,8 +47,8 @@ void see_motions(const Regime& s, const Workspace<S>& ws, const PortData& port, 
   }
 }
 
-/// Rows W of the relative velocities (d', omega) = W (v_A, w_A, v_B, w_B) between two markers,
-/// along the axes of A's.
+/// Rows W of the relative velocities between two markers, (d', omega) = W (v_A, w_A, v_B, w_B),
+/// along the axes of marker A.
 template <class S>
 void relative_rows(const JointData& j, const joint::Geometry<S>& g, joint::Vec12<S>* rows) {
   for (int i = 0; i < 3; ++i) {
@@ -58,7 +58,7 @@ void relative_rows(const JointData& j, const joint::Geometry<S>& g, joint::Vec12
   }
 }
 
-/// Marker B seen from marker A: place, rotation vector, and their velocities.
+/// Place and rotation vector of marker B relative to marker A, and their velocities.
 template <class S>
 void see_markers(const Regime& s, const Workspace<S>& ws, const PortData& port, S* x, S* v,
                  joint::Vec12<S>* rows) {
@@ -93,7 +93,7 @@ template <class S> void see_points(const Workspace<S>& ws, const PortData& port,
   }
 }
 
-/// A force at a point of a body: world force, body-axes moment p x R^T f.
+/// Load of a force at a point of a body: world force, body-axes moment p x R^T f.
 template <class S>
 Vec6<S> load_at(const BodyState<S>& b, const joint::Marker& point, const S* force) {
   const Eigen::Map<const Vec3<S>> f(force);
@@ -103,8 +103,8 @@ Vec6<S> load_at(const BodyState<S>& b, const joint::Marker& point, const S* forc
   return load;
 }
 
-/// Force and moment by which the rows of its joint load body B of a port, at B's marker along the
-/// axes of A's [N, N m], into (6,).
+/// Reaction of the joint of a port on its body B: force and moment at marker B, along the axes of
+/// marker A [N, N m], into (6,).
 template <class S> void see_reaction(const Regime& s, const PortData& port, const S* y, S* out) {
   std::fill_n(out, 6, S(0));
   const JointData& j = s.joints[port.joint];
@@ -113,7 +113,7 @@ template <class S> void see_reaction(const Regime& s, const PortData& port, cons
       out[c] += S(p.on_b[c]) * y[s.lambda(j.rows[p.row])];
 }
 
-/// Largest load of sticking of dry friction [N, N m]: that of a joint that presses follows from its
+/// Largest load of dry friction that sticks [N, N m]; for friction with a bearing, from the joint
 /// reaction in y.
 inline double sticking_load(const Regime& s, const SwitchData& friction, const double* y) {
   const ElementList& list = s.elements[static_cast<std::size_t>(friction.list)];
@@ -125,7 +125,7 @@ inline double sticking_load(const Regime& s, const SwitchData& friction, const d
   return s.static_loads[friction.number] * port.bearing->load(reaction.data());
 }
 
-/// What all laws of one list see, into its scratch.
+/// Inputs of all laws of one list, into its scratch.
 template <class S>
 void gather(const Regime& s, const ElementList& list, const Workspace<S>& ws, const S* y,
             ElementScratch<S>& scratch) {
@@ -162,7 +162,7 @@ void gather(const Regime& s, const ElementList& list, const Workspace<S>& ws, co
   }
 }
 
-/// Adds the loads of one law to its bodies: W^T load of its rows, or the wrench itself.
+/// Adds the loads of one law to its bodies: W^T load of its rows, or its wrench.
 template <class S>
 void add_load(const Regime& s, const element::Shape& shape, const PortData& port, const S* load,
               const joint::Vec12<S>* rows, Workspace<S>& ws) {
@@ -190,13 +190,14 @@ void add_load(const Regime& s, const element::Shape& shape, const PortData& port
   add_to_bodies<S>(s.joints[port.joint], sum, ws.loads);
 }
 
-/// Does a law along the distance of two points pull where these coincide at rest, in no direction?
+/// Returns whether a law along a distance pulls while its two points coincide at rest: the
+/// direction is then undefined.
 template <class S> bool pulls_nowhere(const S& x, const S& load, const joint::Vec12<S>& row) {
   return x == S(0) && !(load == S(0)) && row.cwiseProduct(row).sum() == S(0);
 }
 
-/// Loads of one list into `ws.loads`, and the rows z' - h(x, v, z) = 0 of its states, -h = 0 of its
-/// algebraic unknowns.
+/// Adds the loads of one list to `ws.loads`, and writes the rows of its states: z' - h(x, v, z) =
+/// 0, or -h = 0 for algebraic unknowns.
 template <class S>
 void add_loads(const Regime& s, const ElementList& list, Workspace<S>& ws, const S* y, const S* yp,
                S* residual) {

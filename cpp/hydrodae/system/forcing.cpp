@@ -12,13 +12,13 @@ namespace hydrodae::system {
 
 namespace {
 
-// Of the shortest wave that matters: points in a period, and its part in one step whatever those.
+// Points in a period of the shortest wave, and bounds of the part of that period in one step.
 constexpr double points_of_wave = 7.0, least_of_wave = 0.2, most_of_wave = 0.5;
-constexpr double most_turn = 12.0; ///< of a joint in one step [rad]; see turned_angle
-constexpr double kept = 0.999;     ///< of the variance: waves that matter are longer than that
+constexpr double most_turn = 12.0; ///< largest turn of a joint in one step [rad]; see turned_angle
+constexpr double kept = 0.999;     ///< part of the variance that the counted (longer) waves hold
 
-/// Response of a body of unit mass that is as stiff as its time scale implies, to a load per metre
-/// of each component: |C| / max(1/T, w)^2.
+/// Response to a load per metre of each component, |C| / max(1/T, w)^2: of a body of unit mass
+/// whose stiffness follows from its time scale T.
 VectorX response(const VectorX& C, const VectorX& omega, double time_scale) {
   VectorX out(C.size());
   for (Index i = 0; i < C.size(); ++i) {
@@ -28,7 +28,7 @@ VectorX response(const VectorX& C, const VectorX& omega, double time_scale) {
   return out;
 }
 
-/// 2^k cells of [0, end], of length `cell` at most.
+/// Number of cells of [0, end], a power of two, with cells no longer than `cell`.
 std::size_t cells(double end, double cell, double fewest, double most) {
   const double count = std::clamp(end / cell, fewest, most);
   return std::size_t{1} << static_cast<unsigned>(std::ceil(std::log2(count)));
@@ -36,7 +36,7 @@ std::size_t cells(double end, double cell, double fewest, double most) {
 
 using Parts = std::vector<std::pair<double, double>>; ///< frequency [rad/s], variance
 
-/// The frequency below which all but a thousandth of the variance is [rad/s].
+/// Frequency below which all but a thousandth of the variance lies [rad/s].
 double highest(Parts parts) {
   std::sort(parts.begin(), parts.end());
   double total = 0.0, below = 0.0;
@@ -50,8 +50,8 @@ double highest(Parts parts) {
   return 0.0;
 }
 
-/// Mass and added mass of one coordinate of a body, zero where it does not move in the water [kg or
-/// kg m2].
+/// Mass plus added mass along one coordinate of a body [kg or kg m2]; zero if it does not move in
+/// the water.
 double mass_along(const Regime& s, const PortData& port, int c) {
   const BodyData& b = s.bodies[static_cast<std::size_t>(port.body)];
   for (const HydroBody& hb : s.hydro.bodies)
@@ -103,7 +103,7 @@ void Forcing::add_drives(const Regime& s, double end, double output_step) {
     for (int body : {j.A.body, j.B.body})
       if (body >= 0) {
         const BodyData& b = s.bodies[static_cast<std::size_t>(body)];
-        // A given rate moves the body over its time scale.
+        // A prescribed rate moves the body for its time scale.
         expect(b, m.motion.is_angle(), (*high - *low) * (c.velocity_level ? b.time_scale : 1.0));
       }
     if (sine || !d.table.empty() || d.function)
@@ -112,8 +112,8 @@ void Forcing::add_drives(const Regime& s, double end, double output_step) {
   }
 }
 
-/// Short waves hold a part of the variance of the elevation that hardly moves a body: what counts
-/// is the response of each body, and the elevation itself where laws feel it otherwise.
+/// Shortest wave that matters. Short waves hold part of the variance of the elevation but hardly
+/// move a body. The response of each body counts; for other laws in waves, the elevation.
 void Forcing::add_waves(const Regime& s) {
   double most = 0.0;
   for (const ElementList& list : s.elements) {
@@ -130,14 +130,14 @@ void Forcing::add_waves(const Regime& s) {
       take(waves.amplitude.cwiseAbs2());
     for (std::size_t k = 0; k < list.ports.size(); ++k) {
       const PortData& port = list.ports[k];
-      if (port.body < 0) // a line in the water: its loads reach bodies through its ends only
+      if (port.body < 0) // line in the water: it loads bodies only through its ends
         continue;
       const BodyData& b = s.bodies[static_cast<std::size_t>(port.body)];
       if (waves.loads.empty()) {
         expect(b, false, std::sqrt(2.0) * waves.amplitude.norm());
         continue;
       }
-      VectorX moved = VectorX::Zero(waves.omega.size()); // squares, in levers or rad
+      VectorX moved = VectorX::Zero(waves.omega.size()); // squared responses, in levers or rad
       for (int c = 0; c < 6; ++c)
         if (const double mass = mass_along(s, port, c); mass > 0.0) {
           const VectorX answer =
@@ -173,8 +173,8 @@ void Forcing::add_paths(const Regime& s) {
   }
 }
 
-/// What laws state of themselves; of those that follow the time otherwise the loads at the start
-/// pose, at rest.
+/// Limits that laws declare themselves. Other laws that follow the time are sampled: their loads at
+/// the start pose, at rest.
 void Forcing::add_elements(const Regime& s, double end, double output_step) {
   Workspace<double> ws(s);
   const VectorX y = initial_state(s), yp = VectorX::Zero(s.n);
@@ -218,7 +218,7 @@ Forcing::Limit Forcing::limit(const Turns& turns, double gap, double stretch) {
     if (time < out.time)
       out = {time, &name};
   };
-  for (std::size_t m : angles_) // turns are followed by the rates at both ends of a step
+  for (std::size_t m : angles_) // the rates at both ends of a step determine the turns in it
     if (const double rate = std::abs(turns.rate[m]); rate > 0.0)
       take(t + most_turn / rate, turning_);
   for (Track& track : tracks_)
@@ -231,7 +231,7 @@ Forcing::Limit Forcing::limit(const Turns& turns, double gap, double stretch) {
     const double place = forward ? turns.value[c.motion] : c.length - turns.value[c.motion];
     std::size_t& hint = forward ? c.forward_hint : c.backward_hint;
     const Windows& windows = forward ? c.forward : c.backward;
-    // Straight before its first point, and behind its last.
+    // The path is straight before its first point and behind its last.
     const double reach = place < 0.0 ? windows.reach(0.0, hint) : windows.reach(place, hint);
     take(t + (reach - place) / std::abs(rate), c.name);
   }

@@ -1,6 +1,6 @@
 #pragma once
-/// What is known of the loads and drives ahead of time. A step's error estimate knows the load at a
-/// few points only; while nothing moves, steps grow, and would pass over what comes later.
+/// Limits on steps from loads and drives that are known ahead of time. The error estimate of a step
+/// samples the load at few points: while nothing moves, steps grow and would pass over later loads.
 
 #include <string>
 #include <vector>
@@ -10,25 +10,25 @@
 
 namespace hydrodae::system {
 
-/// Limits of the steps by the functions of time that act on a scene.
+/// Step limits from the functions of time that act on a scene.
 class Forcing {
 public:
-  /// Samples all drives and all laws that follow the time from 0 to `end` [s]; those that are
-  /// Python functions at half the `output_step` [s] or finer.
+  /// Samples all drives and all laws that follow the time, from 0 to `end` [s]. Python functions
+  /// are sampled at half the `output_step` [s] or finer.
   Forcing(const Regime& system, double end, double output_step);
 
-  /// The latest time that a step may reach [s], and what limits it, in words.
+  /// Latest time that a step may reach [s], and the name of the function that limits it.
   struct Limit {
     double time = 0.0;
     const std::string* by = nullptr;
   };
 
-  /// @param turns of the state from which the step starts: where bodies are on their paths
-  /// @param gap largest part of the step between two times at which it asks for the loads
-  /// @param stretch of what waves allow, 1 for most runs
+  /// @param turns  coordinates at the start of the step: positions of bodies on their paths
+  /// @param gap  largest part of a step between two evaluations of the loads
+  /// @param stretch  factor on the limit by waves, 1 for most runs
   Limit limit(const Turns& turns, double gap, double stretch);
 
-  /// By group: how far its bodies will about be moved, in units of their lever [-]; 0: not at all.
+  /// Expected motion of the bodies of each group, in units of their lever [-]; 0: at rest.
   const VectorX& motion() const { return motion_; }
 
 private:
@@ -53,7 +53,7 @@ private:
   std::vector<std::size_t> angles_; ///< motions that are angles
   std::vector<Track> tracks_;
   std::vector<Curve> curves_;
-  double shortest_wave_ = INFINITY; ///< period of the shortest that matters [s]
+  double shortest_wave_ = INFINITY; ///< period of the shortest wave that matters [s]
   std::string waves_ = "the waves", turning_ = "a joint that turns this fast";
   VectorX motion_;
 };

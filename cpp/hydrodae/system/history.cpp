@@ -15,11 +15,14 @@ namespace {
 
 constexpr std::array<double, 3> gauss_node{0.1127016653792583, 0.5, 0.8872983346207417};
 constexpr std::array<double, 3> gauss_weight{5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
-constexpr double longest_piece = 2.0;       ///< of the quadrature, in steps of the kernel's grid
-constexpr std::size_t memory_of_times = 24; ///< stages of a step and nodes of its energy balance
-constexpr std::size_t few = 1024;           ///< points too old that may stay
+/// Longest piece of the quadrature, in steps of the kernel's grid
+constexpr double longest_piece = 2.0;
+/// Times remembered: stages of a step and nodes of its energy balance
+constexpr std::size_t memory_of_times = 24;
+constexpr std::size_t few = 1024; ///< number of expired points that may stay in memory
 
-/// Cubic Hermite polynomials at x in [0, 1] of a step h: factors of value and rate at both ends.
+/// Cubic Hermite polynomials at x in [0, 1] of a step h: factors of the value and rate at both
+/// ends.
 std::array<double, 4> hermite(double x, double h) {
   const double v = 1.0 - x;
   return {v * v * (1.0 + 2.0 * x), h * x * v * v, x * x * (3.0 - 2.0 * x), -h * x * x * v};
@@ -36,7 +39,7 @@ template <class Visitor> void for_each_point(double a, double b, double longest,
     }
 }
 
-/// Of the delays of a system, with the time of the fastest body that a delayed law moves.
+/// Kinks of the delays of a system, with the time scale of the fastest body under a delayed law.
 Kinks find_kinks(const Regime& s, const SolverOptions& options) {
   std::vector<double> delays;
   double time = INFINITY;
@@ -49,7 +52,7 @@ Kinks find_kinks(const Regime& s, const SolverOptions& options) {
           options.rtol};
 }
 
-/// Times that differ by rounding are one.
+/// Rounding error of t [s]: times that differ by less are equal.
 double rounding(double t) { return 256.0 * std::numeric_limits<double>::epsilon() * std::abs(t); }
 
 } // namespace
@@ -79,7 +82,7 @@ History::History(const Regime& system, const SolverOptions& options)
   memo_.assign(memory_of_times, empty);
 }
 
-/// U and U'; of each delayed motion s, s' = W u and s'' = W u' + u . T u.
+/// Signals of a node: U and U'; for each delayed motion s, s' = W u and s'' = W u' + u . T u.
 void History::signals(double t, const VectorX& y, const VectorX& yp, Node& node) {
   const auto n_delays = static_cast<Eigen::Index>(s_.delays.size());
   node.value.resize(n_U_ + 2 * n_delays);
@@ -106,9 +109,8 @@ void History::signals(double t, const VectorX& y, const VectorX& yp, Node& node)
   }
 }
 
-/// All signals at the Chebyshev points of a step (n_signals, n), and those of its end: one point
-/// more than the step's polynomial has, as coordinates along joints are not linear in the
-/// positions.
+/// Signals at the Chebyshev points of a step (n_signals, n), and at its end. They have one point
+/// more than the step's polynomial, because joint coordinates are not linear in the positions.
 MatrixX History::follow(const Node& from, Node& to, const VectorX& y, const VectorX& yp,
                         const Inside& inside, int degree) {
   const bool known = inside && degree >= 3;
@@ -125,7 +127,7 @@ MatrixX History::follow(const Node& from, Node& to, const VectorX& y, const Vect
     signals(node.t, y_, yp_, node);
     value.col(k) = node.value;
   }
-  signals(to.t, y, yp, to); // the angles go on from here
+  signals(to.t, y, yp, to); // the angles continue from here
   value.col(0) = from.value;
   value.col(last) = to.value;
   for (Eigen::Index k = 1; !known && k < last; ++k)
@@ -133,7 +135,7 @@ MatrixX History::follow(const Node& from, Node& to, const VectorX& y, const Vect
   return value;
 }
 
-/// The cubic through both ends.
+/// Cubic Hermite polynomial through the nodes at both ends.
 VectorX History::between(const Node& from, const Node& to, double x) {
   const std::array<double, 4> f = hermite(x, to.t - from.t);
   return f[0] * from.value + f[1] * from.rate + f[2] * to.value + f[3] * to.rate;
@@ -154,9 +156,9 @@ void History::add_points(const Node& from, const Node& to, const MatrixX& value)
                  });
 }
 
-/// The cubic from a step's start to its trial end has missed e(x) = E 16 x^2 (1 - x)^2 of U. That
-/// puts |K| h 8 E / 15 into the load and, over A_inf, h times that into the velocity: of order
-/// h^6. The next step is to keep it below the tolerance of the largest velocity so far.
+/// Limits the next step by the error of the cubic from a step's start to its trial end, e(x) = E 16
+/// x^2 (1 - x)^2 of U. The load is then wrong by |K| h 8 E / 15, the velocity by h / A_inf times
+/// that: order h^6. The limit keeps it below the tolerance of the largest velocity so far.
 void History::judge(const Node& from, const Node& to, const MatrixX& value) {
   if (n_U_ == 0)
     return;
@@ -175,7 +177,7 @@ void History::judge(const Node& from, const Node& to, const MatrixX& value) {
   state_.longest = 0.9 * h * std::pow(most, -1.0 / 6.0);
 }
 
-/// Does a delayed rate jump at the last node, by more than the tolerance?
+/// Returns whether a delayed rate jumps at the last node by more than the tolerance.
 bool History::rates_jump(const VectorX& value) const {
   for (Eigen::Index k = n_U_ + 1; k < value.size(); k += 2) {
     const double before = state_.nodes.empty() ? 0.0 : state_.nodes.back().value[k];
@@ -228,7 +230,7 @@ void History::set(State state) {
     past.known = false;
 }
 
-/// Lets go what no time from the last accepted point but one on will ask for.
+/// Forgets the points that no time after the last accepted point but one depends on.
 void History::forget() {
   if (state_.nodes.size() < 2)
     return;
@@ -254,7 +256,7 @@ void History::forget() {
     state_.nodes.erase(state_.nodes.begin());
 }
 
-/// The last node at or before t; without one, the first.
+/// Last node at or before t, or the first node if missing.
 std::size_t History::node_before(double t) const {
   std::size_t k = state_.nodes.size() - 1;
   while (k > 0 && state_.nodes[k].t > t)
@@ -262,7 +264,7 @@ std::size_t History::node_before(double t) const {
   return k;
 }
 
-/// Adds `weight` times the four weights of the spline at x (in steps of the grid) to a column.
+/// Adds `weight` times the four spline weights at x (in steps of the grid) to a column.
 void History::scatter(double x, double weight, double* column) const {
   const double cell = std::floor(x);
   const std::array<double, 4> b = bspline_weights(x - cell);
@@ -271,10 +273,11 @@ void History::scatter(double x, double weight, double* column) const {
     c[k] += weight * b[k];
 }
 
-/// Scatters the completed steps up to `node`; returns how many rows of the grid they reach.
+/// Scatters the completed steps up to `node`; returns the number of grid rows they reach.
 Eigen::Index History::gather_steps(double t, std::size_t node) const {
   const Convolution& c = s_.hydro.convolution;
-  const double cells = static_cast<double>(c.splines.rows() - 3); // the kernel ends there
+  // end of the kernel, in grid cells
+  const double cells = static_cast<double>(c.splines.rows() - 3);
   const double oldest = t - cells * c.step;
   const auto begin = state_.point_time.begin(),
              end =
@@ -288,7 +291,8 @@ Eigen::Index History::gather_steps(double t, std::size_t node) const {
   grid_.topRows(rows).setZero();
   const auto from = static_cast<std::size_t>(first - begin),
              to = static_cast<std::size_t>(end - begin);
-  const auto last_cell = static_cast<std::ptrdiff_t>(cells) - 1; // against rounding
+  // last cell, as a bound against rounding
+  const auto last_cell = static_cast<std::ptrdiff_t>(cells) - 1;
   for (std::size_t p = from; p < to; ++p) {
     const double x = (t - state_.point_time[p]) * per_step; // > 0
     const std::ptrdiff_t cell = std::min(static_cast<std::ptrdiff_t>(x), last_cell);
@@ -303,8 +307,8 @@ Eigen::Index History::gather_steps(double t, std::size_t node) const {
   return rows;
 }
 
-/// Scatters the piece from the node to t: what is known of it into the grid, whose first `rows` are
-/// in use, and the factors of U(t), U'(t) apart. Returns how many rows the piece reaches.
+/// Scatters the piece from the node to t: its known part into the grid, whose first `rows` are in
+/// use, and the factors of U(t), U'(t) apart. Returns the number of rows that the piece reaches.
 Eigen::Index History::gather_piece(double t, std::size_t node, Eigen::Index rows) const {
   const Convolution& c = s_.hydro.convolution;
   const Node& from = state_.nodes[node];
@@ -330,7 +334,7 @@ Eigen::Index History::gather_piece(double t, std::size_t node, Eigen::Index rows
   return reach;
 }
 
-/// From the grid to loads, pair by pair.
+/// Loads from the grid, pair by pair.
 void History::sum_pairs(bool locked, Eigen::Index rows, Eigen::Index piece_rows, Past& out) const {
   const Convolution& c = s_.hydro.convolution;
   out.memory.setZero();
@@ -354,8 +358,8 @@ void History::sum_pairs(bool locked, Eigen::Index rows, Eigen::Index piece_rows,
   }
 }
 
-/// s and s' at t - tau; before the start s(0), at rest. A step that ends where the past jumps has
-/// what was before, and the next one, from its start on, what comes.
+/// Delayed s and s', at t - tau; before the start s(0), at rest. At a jump of the past, a step that
+/// ends there takes the values before it, and the next step those after it.
 std::array<double, 2> History::delayed(int delay, double t) const {
   const double tau = s_.delays[static_cast<std::size_t>(delay)].time, then = t - tau,
                same = rounding(std::max(std::abs(t), tau));
@@ -363,13 +367,14 @@ std::array<double, 2> History::delayed(int delay, double t) const {
       std::any_of(state_.nodes.rbegin(),
                   state_.nodes.rbegin() + std::min<std::ptrdiff_t>(2, std::ssize(state_.nodes)),
                   [t](const Node& node) { return node.t == t; });
-  const double from = ahead ? then + same : then - same; // in the piece that is meant
+  // time shifted into the piece on the right side of the jump
+  const double from = ahead ? then + same : then - same;
   const Eigen::Index k = 2 * delay;
   if (from <= state_.start)
     return {state_.first[n_U_ + k], 0.0};
   const auto piece = std::lower_bound(state_.pieces.begin(), state_.pieces.end(), from,
                                       [](const Piece& one, double time) { return one.to < time; });
-  if (piece == state_.pieces.end()) // patterns and poses are looked at whatever the time
+  if (piece == state_.pieces.end()) // patterns and poses need the values at any time
     return {state_.nodes.back().value[n_U_ + k], state_.nodes.back().value[n_U_ + k + 1]};
   const double x = (then - piece->from) / (piece->to - piece->from);
   chebyshev_weights(chebyshev_points(piece->value.cols()), x, weights_);
@@ -384,7 +389,7 @@ void History::evaluate(double t, bool locked, Past& out) const {
     out.delayed[d] = delayed(static_cast<int>(d), t);
   if (n_U_ == 0)
     return;
-  if (state_.nodes.size() > 1) // patterns and poses are looked at whatever the time
+  if (state_.nodes.size() > 1) // patterns and poses need the values at any time
     t = std::max(t, state_.nodes[state_.nodes.size() - 2].t);
   const std::size_t node = node_before(t);
   const Eigen::Index rows = gather_steps(t, node), piece = gather_piece(t, node, rows);

@@ -1,16 +1,15 @@
 #pragma once
-/// What has happened up to the last accepted step, for loads that depend on the past: radiation by
-/// convolution, and delays. Changes on accepted steps only; what it answers is a function of the
-/// time asked for, so that residual and Jacobian stay pure.
+/// History of the motion up to the last accepted step, for loads that depend on the past: radiation
+/// by convolution, and delays. It changes on accepted steps only. Its answer depends on the
+/// requested time alone, so that residual and Jacobian stay pure.
 ///
 ///   f_rad(t) = -int_0^min(t,T) K(tau) U(t - tau) dtau,   U = 0 before the start
 ///
-/// Inside an accepted step U and each delayed s, s' are the step's own polynomial: as exact as what
-/// the method says there. Of a step that is not known inside they are the cubic Hermite polynomials
-/// through both ends. From the last accepted point to the trial time t, U is the cubic through U
-/// and U' at both, U(t) and U'(t) those of the trial; `longest_step` keeps what that misses below
-/// the tolerance. The product with the kernel's spline is summed by three Gauss points on pieces of
-/// at most two steps of the kernel's grid (error below 1e-7).
+/// Inside an accepted step U and each delayed s, s' are the step's own polynomial, if the method
+/// has one; otherwise the cubic Hermite polynomials through both ends. From the last accepted point
+/// to the trial time t, U is the cubic through U and U' at both; `longest_step` keeps its error
+/// below the tolerance. Three Gauss points integrate the product with the kernel's spline, on
+/// pieces of at most two steps of the kernel's grid (error below 1e-7).
 
 #include <array>
 #include <functional>
@@ -22,73 +21,76 @@
 
 namespace hydrodae::system {
 
-/// The past as seen from one time.
+/// Past of one time.
 struct Past {
   double t = 0.0;
-  bool known = false;     ///< holds the values of t
-  bool locked = false;    ///< those of rows that do not move, too
-  VectorX memory;         ///< (n_moving,) of int K U, without what the next two give [N, N m]
+  bool known = false;     ///< the values below are those of t
+  bool locked = false;    ///< `memory_locked` and its factors are valid, too
+  VectorX memory;         ///< (n_moving,) int K U, without the parts of U(t) and U'(t) [N, N m]
   MatrixX by_U, by_U_dot; ///< (n_moving, n_moving) factors of U(t), U'(t) [N s/m, kg]
-  VectorX memory_locked;  ///< (n_locked,) the same for the rows that do not move
+  VectorX memory_locked;  ///< (n_locked,) `memory` for the rows that do not move
   MatrixX locked_by_U, locked_by_U_dot;       ///< (n_locked, n_moving)
-  std::vector<std::array<double, 2>> delayed; ///< of each delay: s and s' at t - tau
+  std::vector<std::array<double, 2>> delayed; ///< s and s' at t - tau, for each delay
 };
 
 class History {
 public:
-  /// y and y' at a time inside the last step; of them positions and velocities are read.
+  /// y and y' at a time inside the last step; only positions and velocities are read.
   using Inside = std::function<void(double t, VectorX& y, VectorX& yp)>;
 
-  /// Of a system whose layout does not change any more. `options`: rtol, and the longest step.
+  /// @param system  its layout must not change any more
+  /// @param options  rtol, and the longest step
   explicit History(const Regime& system, const SolverOptions& options = {});
 
-  /// Takes in an accepted point (t not before the last one). At the same time as the last one: the
-  /// velocities have jumped there, or the loads, and the new ones hold from now on.
-  /// @param inside the motion since the last point, a polynomial in time of this `degree`; below 3
-  ///   the cubic through both ends is no worse
+  /// Appends an accepted point, at or after the last one. A point at the same time replaces the
+  /// last one: velocities or loads have jumped there.
+  /// @param inside  motion since the last point, a polynomial in time
+  /// @param degree  degree of that polynomial; below 3 the cubic through both ends is as good
   void append(double t, const VectorX& y, const VectorX& yp, const Inside& inside = {},
               int degree = 0);
 
-  /// The past of `t`, at or after the last accepted point but one. Steps completed before t count
-  /// with what was accepted, the piece from there to t by factors of U(t), U'(t). `locked`: for the
-  /// rows that do not move as well. Where the past jumps, accepted points look ahead of it and all
-  /// other times back. Valid until the next calls; remembers several times (stages). Not for two
-  /// threads at once.
+  /// Past of time t, at or after the last accepted point but one. Completed steps contribute
+  /// accepted values; the piece from there to t, factors of U(t), U'(t). `locked`: also for rows
+  /// that do not move. At jumps of the past, accepted points take the values after it, other times
+  /// those before it. The reference is valid until the next calls (several times are remembered).
+  /// Not thread-safe.
   const Past& at(double t, bool locked = false) const;
 
   double last_time() const { return state_.nodes.back().t; }
 
-  /// Where the next step is to end for a method of this order [s]: a kink of the past comes up.
+  /// End of the next step at a kink of the past, for a method of this order [s].
   double next_kink(int order) const { return kinks_.next(order); }
 
-  /// Have the accelerations jumped at the last accepted point, as the past has?
+  /// Returns whether the accelerations have jumped at the last accepted point, as the past has.
   bool jumps() const { return state_.jumps; }
 
-  /// How long the next step may be for the cubic at its trial end [s].
+  /// Longest next step for which the cubic at its trial end is exact enough [s].
   double longest_step() const { return state_.longest; }
 
   struct Node {
     double t = 0.0;
-    VectorX value, rate;    ///< (n_signals,) U and U'; of each delay s and s', then s' and s''
-    std::size_t points = 0; ///< quadrature points up to here, since the start
+    /// (n_signals,) values: U, then s and s' of each delay; rates: U', then s' and s''
+    VectorX value, rate;
+    std::size_t points = 0; ///< number of quadrature points since the start
   };
-  struct Piece { ///< polynomial over a step
+  struct Piece { ///< polynomial in time over one step
     double from = 0.0, to = 0.0;
     MatrixX value; ///< (2 n_delays, n) at Chebyshev points
   };
   struct State {
-    std::vector<Node> nodes;   ///< the last accepted points
+    std::vector<Node> nodes;   ///< last accepted points
     std::vector<Piece> pieces; ///< accepted steps
     VectorX first;             ///< signals at the start
     double start = 0.0;        ///< [s]
     bool jumps = false;
-    double longest = INFINITY; ///< step [s]
-    VectorX largest;           ///< (n_U,) |U| so far
+    double longest = INFINITY; ///< longest next step [s]
+    VectorX largest;           ///< (n_U,) largest |U| so far
     std::vector<double> point_time;
-    std::vector<std::vector<double>> point_value; ///< per channel: weight times U
-    std::size_t dropped = 0;                      ///< points forgotten since the start
+    /// Weight times U at the points, for each channel
+    std::vector<std::vector<double>> point_value;
+    std::size_t dropped = 0; ///< number of points forgotten since the start
     Kinks::State kinks;
-    Turns turns; ///< at the last accepted point
+    Turns turns; ///< coordinates and rates at the last accepted point
   };
   State state() const;
   void set(State state);
@@ -113,32 +115,31 @@ private:
   const Regime& s_;
   const double rtol_;
   Workspace<double> ws_;
-  int n_U_ = 0;       ///< channels of the convolution
-  double keep_ = 0.0; ///< longest delay [s]
+  int n_U_ = 0;       ///< number of channels of the convolution
+  double keep_ = 0.0; ///< duration of the past to keep: longest delay [s]
   Kinks kinks_;
-  VectorX strength_; ///< (n_U,) kernel over added mass [1/s2]
-  State state_;      ///< but for the kinks and the turns, which others keep
+  VectorX strength_; ///< (n_U,) ratio of kernel to added mass [1/s2]
+  State state_;      ///< state without kinks and turns: `kinks_` and the workspace hold these
   VectorX y_, yp_;   ///< scratch, inside a step
-  // Memory of recent times, and scratch: U scattered onto the kernel's grid.
+  // Past of recent times, and scratch: U scattered onto the kernel's grid.
   mutable std::vector<Past> memo_;
   mutable std::size_t next_ = 0;
   mutable MatrixX grid_;       ///< (n_grid + 2, n_U)
   mutable MatrixX piece_grid_; ///< (n_grid + 2, 2) factors of U(t), U'(t)
-  mutable VectorX weights_;    ///< of the values of a piece
+  mutable VectorX weights_;    ///< scratch: weights of the values of a piece
 };
 
-/// Does anything in the system depend on its past?
+/// Returns whether the system has loads that depend on the past.
 inline bool has_past(const System& s) { return !s.hydro.convolution.empty() || !s.delays.empty(); }
 
-/// The past of t, or null.
+/// Past of time t, or null.
 inline const Past* past_at(const Regime& s, double t) {
   return s.history ? &s.history->at(t) : nullptr;
 }
 
-/// Shortens the longest step to what the history carries: a step may not be longer than a delay,
-/// nor than 1 / w of the kernels' own frequency w, within which they are smooth. Returns what it
-/// did, in words, empty: nothing. Throws ModelError (solver.step) for a fixed step that is too
-/// long.
+/// Shortens the longest step to at most each delay, and to 1 / w of the mean frequency w of the
+/// kernels, over which they are smooth. Returns a description of the change, or an empty string.
+/// Throws ModelError (solver.step) for a fixed step that is too long.
 std::string limit_steps(const System& system, SolverOptions& options);
 
 } // namespace hydrodae::system

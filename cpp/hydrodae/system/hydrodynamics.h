@@ -7,7 +7,7 @@
 
 namespace hydrodae::system {
 
-/// out = m x without temporaries; a plain loop for scalars that Eigen does not vectorise.
+/// Product out = m x without temporaries; a plain loop for scalars that Eigen does not vectorise.
 template <class S> void multiply(const MatrixX& m, const S* x, VecX<S>& out) {
   if constexpr (std::is_same_v<S, double>) {
     out.noalias() = m * Eigen::Map<const VectorX>(x, m.cols());
@@ -21,7 +21,7 @@ template <class S> void multiply(const MatrixX& m, const S* x, VecX<S>& out) {
   }
 }
 
-/// U and U' of all coordinates that move.
+/// Velocities U and accelerations U' of all coordinates that move.
 template <class S> void hydro_motion(const Regime& s, Workspace<S>& ws) {
   for (const HydroBody& hb : s.hydro.bodies) {
     if (!hb.moves)
@@ -38,7 +38,8 @@ template <class S> void hydro_motion(const Regime& s, Workspace<S>& ws) {
   }
 }
 
-/// int K U over the steps completed, and what U(t), U'(t) add by the piece that ends at t.
+/// Memory integral int K U over completed steps, plus the parts of U(t), U'(t) in the piece up to
+/// t.
 template <class S> void add_convolution(const HydroData& h, Workspace<S>& ws) {
   if (h.convolution.empty() || !ws.past)
     return;
@@ -50,7 +51,7 @@ template <class S> void add_convolution(const HydroData& h, Workspace<S>& ws) {
     ws.inertia_force[u] += S(ws.past->memory[u]);
 }
 
-/// A table at the pose of its body: weights, pose and its rate.
+/// Weights of a table at the pose of its body; returns the pose.
 template <class S>
 water::PoseCoordinate<S> read_pose(const Regime& s, Workspace<S>& ws,
                                    const water::PoseTable& table) {
@@ -61,7 +62,8 @@ water::PoseCoordinate<S> read_pose(const Regime& s, Workspace<S>& ws,
   return pose;
 }
 
-/// A(s) U into `ws.momentum`, A(s) U' + s' A'(s) U + B(s) U into `ws.inertia_force`.
+/// Loads of pose tables: A(s) U into `ws.momentum`, A(s) U' + s' A'(s) U + B(s) U into
+/// `ws.inertia_force`.
 template <class S> void add_tables(const Regime& s, Workspace<S>& ws) {
   for (std::size_t k = 0; k < s.hydro.tables.size(); ++k) {
     const water::PoseTable& table = s.hydro.tables[k];
@@ -85,7 +87,7 @@ template <class S> void add_tables(const Regime& s, Workspace<S>& ws) {
   }
 }
 
-/// The memory states as they load the bodies: times the weights of their tables.
+/// Memory states times the weights of their tables.
 template <class S> const S* weighted_states(const HydroData& h, Workspace<S>& ws, const S* z) {
   if (h.tables.empty())
     return z;
@@ -96,8 +98,8 @@ template <class S> const S* weighted_states(const HydroData& h, Workspace<S>& ws
   return ws.weighted.data();
 }
 
-/// A_inf U' + C z + B U into `ws.inertia_force`, A_inf U into `ws.momentum`: zero in mean axes,
-/// whose loads do not ask for it.
+/// Force A_inf U' + C z + B U into `ws.inertia_force`, momentum A_inf U into `ws.momentum`. Mean
+/// axes do not need the momentum: it is zero.
 template <class S> void hydro_loads(const Regime& s, Workspace<S>& ws, const S* z) {
   const HydroData& h = s.hydro;
   const HydroData::Products& products = h.products;

@@ -10,10 +10,10 @@ namespace hydrodae::system {
 
 namespace {
 
-/// Collects the places that the assembly visits.
+/// Sink that collects the places that the assembly visits.
 template <Part made> struct PatternSink {
   static constexpr bool whole = made != Part::accelerations, memory = made == Part::whole;
-  Visits visits, rates; ///< (column, row); rates: those of dF/dy'
+  Visits visits, rates; ///< (column, row) of all entries; `rates`: entries of dF/dy'
   void by_y(Index row, Index column, double) { visits.emplace_back(column, row); }
   void by_yp(Index row, Index column, double) {
     visits.emplace_back(column, row);
@@ -22,7 +22,7 @@ template <Part made> struct PatternSink {
   void row_rate(Index, double) {}
 };
 
-/// Adds the values into the slots found before.
+/// Sink that adds the values into the slots of the pattern.
 template <Part made> struct ValueSink {
   static constexpr bool whole = made != Part::accelerations, memory = made == Part::whole;
   const Index* slot;
@@ -65,7 +65,7 @@ void fill(const Regime& system, const Pattern& pattern, JacobianWorkspace& ws, d
 
 void fill_memory(const Regime& s, const JacobianWorkspace& ws, JacobianParts& out) {
   const HydroData& h = s.hydro;
-  out.memory.resize(h.bodies.size()); // once
+  out.memory.resize(h.bodies.size()); // allocates on the first call only
   if (!h.tables.empty()) {
     out.memory_weights.setOnes(h.n_states);
     for (int z = 0; z < h.n_states; ++z)

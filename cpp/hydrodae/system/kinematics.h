@@ -1,5 +1,5 @@
 #pragma once
-/// From the unknowns to the poses and velocities of the bodies.
+/// Poses and velocities of the bodies from the unknowns.
 
 #include <algorithm>
 #include <cmath>
@@ -15,23 +15,23 @@ using element::to_world;
 struct Past;
 
 /// Coordinates and rates of all motions at the last accepted step, then vectors and angular
-/// velocities of the rotations, three numbers each; angles followed over turns.
+/// velocities of the rotations (three numbers each). Angles count full turns.
 struct Turns {
   double time = 0.0;
-  bool known = false; ///< else the values are near those of the start, and the rates are not known
+  bool known = false; ///< false: the values are near those at the start, and the rates are unknown
   std::vector<double> value, rate;
 };
 
-/// d (w x I w) / dw, of the moment that turns the spin of a body [kg m2/s]; I, w in body axes.
+/// Gyroscopic derivative d (w x I w) / dw [kg m2/s]; I and w in body axes.
 inline Matrix3 gyroscopic_matrix(const Matrix3& inertia, const Vector3& w) {
   return skew<double>(w) * inertia - skew<double>(inertia * w);
 }
 
-/// What the laws of one list see and answer; rows: gradients of what they see, where it has them.
+/// Inputs and outputs of the laws of one list, and the gradients `rows` of the inputs.
 template <class S> struct ElementScratch {
   std::vector<S> in, out;
   std::vector<joint::Vec12<S>> rows;
-  std::vector<double> held; ///< signals, where one of them lags
+  std::vector<double> held; ///< signals at the time of the call, if one of them lags
 
   explicit ElementScratch(const ElementList& list)
       : in(list.laws->size() * static_cast<std::size_t>(list.laws->shape.n_in())),
@@ -41,25 +41,25 @@ template <class S> struct ElementScratch {
                  : 0) {}
 };
 
-/// Scratch memory of one evaluation; sized once. All that it keeps between calls is `turns`, which
-/// belongs to the last accepted step and changes only there.
+/// Scratch memory of one evaluation, allocated once. Only `turns` persists between calls; it
+/// belongs to the last accepted step.
 template <class S> struct Workspace {
   std::vector<BodyState<S>> bodies;
   std::vector<Vec6<S>> loads;  ///< world force, body-axes moment about the centre of gravity
   std::vector<Vec6<S>> shifts; ///< G^T mu
   VecX<S> U, U_dot, momentum, inertia_force;
   VecX<S> memory;                   ///< scratch of the convolution
-  VecX<S> weights, weight_slopes;   ///< of the tables over poses
+  VecX<S> weights, weight_slopes;   ///< weights of the pose tables, and their derivatives
   VecX<S> weighted;                 ///< memory states times their weights
-  std::vector<Vec6<S>> table_loads; ///< 1/2 U.A' U grad s of each table, on its body
-  const Past* past = nullptr;       ///< at the time of this evaluation (history.h)
+  std::vector<Vec6<S>> table_loads; ///< load 1/2 U.A' U grad s of each table on its body
+  const Past* past = nullptr;       ///< past at the time of this evaluation (history.h)
   std::vector<ElementScratch<S>> elements;
-  double time = 0.0; ///< of this evaluation [s]
+  double time = 0.0; ///< time of this evaluation [s]
   Turns turns;
 
   explicit Workspace(const Regime& s) : Workspace(s.system) { turns.value = s.nearby; }
 
-  /// With the coordinates of the start.
+  /// Workspace with the coordinates at the start.
   explicit Workspace(const System& s)
       : bodies(s.bodies.size()), loads(s.bodies.size()), shifts(s.bodies.size()),
         U(VecX<S>::Zero(s.hydro.n_moving)), U_dot(U), momentum(U), inertia_force(U),
@@ -81,8 +81,8 @@ template <class S> struct Workspace {
   }
 };
 
-/// Poses, velocities and accelerations of all bodies from y and y'. Locked coordinates keep what
-/// the workspace was made with.
+/// Poses, velocities and accelerations of all bodies from y and y'. Locked coordinates keep the
+/// values that the workspace was made with.
 template <class S>
 void unpack(const System& s, const S* y, const S* yp, std::vector<BodyState<S>>& states) {
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
@@ -110,8 +110,8 @@ void unpack(const System& s, const S* y, const S* yp, std::vector<BodyState<S>>&
   }
 }
 
-/// A followed rotation as a vector [rad]: of its turns that to which the rates at the last accepted
-/// step and now lead.
+/// Rotation vector of a followed rotation [rad]. Of the equivalent vectors it is the one nearest to
+/// the prediction from the rates at the last accepted step and now.
 template <class S> Vec3<S> rotation_of(const System& s, const Workspace<S>& ws, int rotation) {
   const RotationData& r = s.rotations[rotation];
   const std::size_t at = s.motions.size() + 3 * static_cast<std::size_t>(rotation);
@@ -123,8 +123,8 @@ template <class S> Vec3<S> rotation_of(const System& s, const Workspace<S>& ws, 
   return nearest_rotation<S>(attitude_of<S>(s, r, ws.bodies), near);
 }
 
-/// Displacement of a body from its reference pose, turned by the quaternion `turn`: [r - r_ref;
-/// rotation vector], earth axes [m; rad]; `rotation`: in System::rotations, or -1.
+/// Displacement of a body from its reference pose, which the quaternion `turn` rotates: [r - r_ref;
+/// rotation vector], earth axes [m; rad]. `rotation`: index in System::rotations, or -1.
 template <class S>
 Vec6<S> displacement(const System& s, const Workspace<S>& ws, int body, const Vector4& turn,
                      int rotation, const S* y) {
@@ -146,14 +146,14 @@ Vec6<S> displacement(const System& s, const Workspace<S>& ws, int body, const S*
   return displacement<S>(s, ws, body, {1, 0, 0, 0}, s.bodies[body].followed, y);
 }
 
-/// [v; w] in world axes.
+/// Twist [v; w] in world axes.
 template <class S> Vec6<S> twist(const BodyState<S>& state) {
   Vec6<S> out;
   out << state.v, state.R * state.w;
   return out;
 }
 
-/// (v_A, w_A, v_B, w_B)' of a joint.
+/// Acceleration (v_A, w_A, v_B, w_B)' of the bodies of a joint.
 template <class S>
 joint::Vec12<S> joint_acceleration(const JointData& j, const std::vector<BodyState<S>>& states) {
   joint::Vec12<S> a = joint::Vec12<S>::Zero();
@@ -164,8 +164,8 @@ joint::Vec12<S> joint_acceleration(const JointData& j, const std::vector<BodySta
   return a;
 }
 
-/// Coordinate of a motion with its gradient. Angles are on the turn nearest to where the rates at
-/// the last accepted step and now lead, however many turns the step takes.
+/// Coordinate of a motion with its gradient. An angle lies on the turn nearest to the prediction
+/// from the rates at the last accepted step and now, however many turns a step takes.
 template <class S> joint::Row<S> motion_row(const System& s, const Workspace<S>& ws, int motion) {
   const MotionData& m = s.motions[motion];
   const JointData& j = s.joints[m.joint];
@@ -186,7 +186,7 @@ template <class S> joint::Row<S> motion_row(const System& s, const Workspace<S>&
   return row;
 }
 
-/// Where all motions and rotations are, after `unpack` at time `ws.time`.
+/// Coordinates and rates of all motions and rotations, after `unpack` at time `ws.time`.
 inline void read_turns(const System& s, const Workspace<double>& ws, Turns& out) {
   out.value.clear();
   out.rate.clear();
@@ -206,7 +206,7 @@ inline void read_turns(const System& s, const Workspace<double>& ws, Turns& out)
   out.known = true;
 }
 
-/// Moves `turns` on to an accepted state at time t.
+/// Updates `turns` to an accepted state at time t.
 inline void accept_turns(const System& s, double t, const double* y, const double* yp,
                          Workspace<double>& ws) {
   unpack<double>(s, y, yp, ws.bodies);
@@ -216,7 +216,7 @@ inline void accept_turns(const System& s, double t, const double* y, const doubl
   ws.turns = std::move(now);
 }
 
-/// Adds a load or shift (12 numbers of a joint) to its two bodies.
+/// Adds a load or shift of a joint (12 numbers) to its two bodies.
 template <class S>
 void add_to_bodies(const JointData& j, const joint::Vec12<S>& load, std::vector<Vec6<S>>& bodies) {
   if (j.A.body >= 0)

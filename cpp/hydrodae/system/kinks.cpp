@@ -7,17 +7,18 @@ namespace hydrodae::system {
 
 namespace {
 
-constexpr int highest_order = 13; ///< of the methods that choose their steps
+constexpr int highest_order = 13; ///< highest order of the methods with adaptive steps
 
-/// Instants that differ by rounding are one.
+/// Rounding error of t [s]: instants that differ by less are equal.
 double rounding_of(double t) {
   return 256.0 * std::numeric_limits<double>::epsilon() * std::abs(t);
 }
 
 } // namespace
 
-/// A step h over a jump of the m-th derivative misses (h / T)^m / m! of the size of the motion,
-/// whose derivatives are that size over T^m: nothing where it is below the tolerance.
+/// Error of a step h over a jump of the m-th derivative: (h / T)^m / m! of the size of the motion,
+/// whose m-th derivative is that size over T^m. Jumps with an error below the tolerance are
+/// ignored.
 Kinks::Kinks(std::vector<double> delays, double time, double longest, double rtol)
     : delays_(std::move(delays)) {
   double missed = 1.0;
@@ -56,8 +57,8 @@ int Kinks::pass(double t) {
   return lowest;
 }
 
-/// A method of order p sees derivatives of s up to p + 1: a jump of a higher one is below its own
-/// error.
+/// Next kink for a method of order p, which is sensitive to derivatives of s up to p + 1: the
+/// effect of a jump in a higher one is below the method's own error.
 double Kinks::next(int order) const {
   for (const Kink& kink : state_.coming)
     if (kink.derivative <= order + 1)

@@ -1,4 +1,4 @@
-/// How long a step may be beside what the history carries.
+/// Longest step that the history allows.
 
 #include <cmath>
 
@@ -33,7 +33,7 @@ std::string limit_steps(const System& s, SolverOptions& options) {
                                         number_text(limit) + " s, " + why);
   if (fixed)
     return "";
-  // The methods may stretch a step by a tenth rather than leave a short one.
+  // Methods may lengthen a step by a tenth to avoid a short last one.
   limit *= 0.9;
   if (options.max_step > 0.0 && options.max_step <= limit)
     return "";

@@ -7,7 +7,7 @@
 
 namespace hydrodae::system {
 
-/// Mass and moments of inertia of a body by itself.
+/// Mass matrix of a body: mass and moments of inertia.
 inline Matrix6 rigid_mass(const BodyData& b) {
   Matrix6 out = Matrix6::Zero();
   out.topLeftCorner<3, 3>().diagonal().setConstant(b.mass);
@@ -15,8 +15,8 @@ inline Matrix6 rigid_mass(const BodyData& b) {
   return out;
 }
 
-/// The block of a matrix (n_moving, n_moving) between two hydrodynamic bodies, zero where a
-/// coordinate does not move.
+/// Block of a matrix (n_moving, n_moving) between two hydrodynamic bodies. Entries of coordinates
+/// that do not move are zero.
 inline Matrix6 hydro_block(const MatrixX& matrix, const HydroBody& i, const HydroBody& j) {
   Matrix6 block = Matrix6::Zero();
   for (int m = 0; m < 6; ++m)
@@ -26,14 +26,14 @@ inline Matrix6 hydro_block(const MatrixX& matrix, const HydroBody& i, const Hydr
   return block;
 }
 
-/// A table at the pose of its body.
+/// Values of a pose table at the pose of its body.
 struct TableHere {
   water::PoseCoordinate<double> pose;
-  double rate = 0.0;           ///< s'
+  double rate = 0.0;           ///< rate s' of the pose
   Matrix6 A, A_slope, damping; ///< A, dA/ds, B; rows and columns that do not move are zero
 };
 
-/// The rows of coordinates that move.
+/// Matrix with zeros in the rows of coordinates that do not move.
 inline Matrix6 moving_rows(const HydroBody& hb, Matrix6 matrix) {
   for (int c = 0; c < 6; ++c)
     if (hb.moving[c] < 0)
@@ -55,7 +55,7 @@ inline TableHere table_here(const Regime& s, Workspace<double>& ws, const HydroB
 }
 
 /// Added mass of the motion of body j on body i, along the hydrodynamic axes of both. A convolution
-/// feels part of the acceleration that ends its last piece.
+/// adds a part by the acceleration at the end of its last piece.
 inline Matrix6 added_mass(const Regime& s, Workspace<double>& ws, const HydroBody& i,
                           const HydroBody& j) {
   Matrix6 A = hydro_block(s.hydro.added_mass, i, j);
@@ -66,7 +66,7 @@ inline Matrix6 added_mass(const Regime& s, Workspace<double>& ws, const HydroBod
   return A;
 }
 
-/// a D^T and D a; `forces`: their part of D is not the identity.
+/// Products a D^T and D a; `forces`: the force block of D is not the identity.
 inline void turn_columns(const Matrix6& D, bool forces, Matrix6& a) {
   a.rightCols<3>() *= D.bottomRightCorner<3, 3>().transpose();
   if (forces)
@@ -78,11 +78,11 @@ inline void turn_rows(const Matrix6& D, bool forces, Matrix6& a) {
     a.topRows<3>().applyOnTheLeft(D.topLeftCorner<3, 3>());
 }
 
-/// M + D A_inf D^T in the poses of the workspace, by pairs of bodies: visit(i, j, block) with the
-/// load that body i needs for the acceleration [v'; w'] of body j.
+/// Mass matrix M + D A_inf D^T in the poses of the workspace, by pairs of bodies. visit(i, j,
+/// block): `block` is the load on body i per acceleration [v'; w'] of body j.
 template <class Visit> void mass(const Regime& s, JacobianWorkspace& ws, Visit&& visit) {
   const std::vector<HydroBody>& wet = s.hydro.bodies;
-  const auto forces = [&](const HydroBody& hb) { // turn too, not moments alone
+  const auto forces = [&](const HydroBody& hb) { // axes that turn forces, not only moments
     return s.hydro.axes != HydroAxes::mean || hb.turned;
   };
   std::vector<Matrix6>& D = ws.hydro_axes;

@@ -28,7 +28,7 @@ public:
   bool moves(int body) const {
     return body >= 0 && s_.bodies[static_cast<std::size_t>(body)].n_active > 0;
   }
-  /// Numbers the sets of the bodies that move; -1 for the others.
+  /// Numbers the sets of moving bodies; other bodies get -1.
   int number(System& s, int BodyData::* which) {
     std::vector<int> numbers(root_.size(), -1);
     int count = 0;
@@ -77,7 +77,7 @@ void find_mechanisms(System& s) {
   for (const JointData& j : s.joints)
     if (!j.rows.empty())
       sets.join(j);
-  for (const CouplerData& c : s.couplers) { // those of switches too
+  for (const CouplerData& c : s.couplers) { // all couplers, those of switches included
     int first = -1;
     for (const CouplerData::Term& term : c.terms) {
       const JointData& j = joint_of(s, term.motion);

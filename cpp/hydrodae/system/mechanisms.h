@@ -1,35 +1,35 @@
 #pragma once
-/// Which bodies belong together. What goes wrong in one mechanism must not hide behind the size of
-/// another: tolerances, norms and guards are taken for each by itself.
+/// Mechanisms and groups of bodies. Tolerances, norms and guards are taken for each one separately,
+/// so that a large mechanism does not hide an error in a small one.
 
 #include "hydrodae/system/regime.h"
 
 namespace hydrodae::system {
 
-/// Numbers the mechanisms (bodies that rows of joints, couplers, stops or dry friction hold to each
-/// other) and the groups (mechanisms that act on each other by forces or through the water).
-/// Bodies that cannot move, and the ground, join nothing.
+/// Numbers the mechanisms and the groups. A mechanism is a set of bodies connected by rows of
+/// joints, couplers, stops or dry friction. A group is a set of mechanisms that act on each other
+/// by forces or through the water. Fixed bodies and the ground connect nothing.
 void find_mechanisms(System& system);
 
-/// The joint that a coordinate measures, and that a coupler acts on (its first, if several).
+/// Joint of a motion; joint of a coupler (the first one, if several).
 const JointData& joint_of(const System& system, int motion);
 const JointData& joint_of(const System& system, const CouplerData& coupler);
 
-/// Of the bodies that a joint joins one that moves, the second if both do; null if neither.
+/// Moving body of a joint, the second one if both move; null if neither moves.
 const BodyData* moving_body(const System& system, const JointData& joint);
 
-/// The last body of a port that moves.
+/// Last moving body of a port; null if none moves.
 const BodyData* moving_body(const System& system, const PortData& port);
 
-/// By mechanism: do the rows that hold now, those of drives among them, leave it no motion of its
-/// own?
+/// Mechanisms that the rows that now hold, drives included, leave no free motion.
 std::vector<bool> guided_mechanisms(const Regime& regime);
 
-/// Do reactions neither do work nor press friction, and are all states rates? Then the powers of
-/// all forces follow from positions, velocities and states.
+/// Returns whether reactions neither do work nor press friction, and all states are rates. The
+/// powers of all forces then follow from positions, velocities and states.
 bool has_idle_reactions(const Regime& regime);
 
-/// The group of each position, velocity and memory state, and the blocks; needs their offsets.
+/// Sets the group of each position, velocity and memory state, and the blocks; needs the offsets in
+/// y.
 void set_groups(System& system);
 
 } // namespace hydrodae::system

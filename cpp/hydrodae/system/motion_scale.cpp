@@ -11,12 +11,13 @@ namespace hydrodae::system {
 
 namespace {
 
-constexpr double full = 0.1;            ///< motion [levers] from which on the full scales hold
-constexpr double rounding_error = 1e3;  ///< epsilons of a position: no step's error is below
-constexpr double settled = 20.0;        ///< time scales after which what was reached is the motion
-constexpr double slack_of_scales = 1.5; ///< of a change that is worth new scales
+constexpr double full = 0.1;           ///< motion [levers] above which the full scales apply
+constexpr double rounding_error = 1e3; ///< epsilons of a position: lower bound of any step's error
+/// Number of time scales after which the reached motion alone counts
+constexpr double settled = 20.0;
+constexpr double slack_of_scales = 1.5; ///< smallest ratio of a change that updates the scales
 
-/// In levers.
+/// Largest translation since `from`, in levers.
 double translation(const BodyData& b, const VectorX& from, const VectorX& y) {
   const Index n = b.n_translations;
   return (y.segment(b.q0, n) - from.segment(b.q0, n)).norm() / b.lever;
@@ -66,9 +67,9 @@ MotionScale::MotionScale(Regime& s, const Pattern& pattern, const VectorX& y, co
     update(0.0);
 }
 
-/// Velocities and accelerations of the start over the time scale of each coordinate, or the shorter
-/// one of its own stiffness. (How far floating bodies are from the pose of their hydrostatics, the
-/// constructor adds.)
+/// Expected motion from the velocities and accelerations at the start, over the time scale of each
+/// coordinate or the shorter one of its own stiffness. The constructor adds the distance of
+/// floating bodies from the reference pose of their hydrostatics.
 void MotionScale::expect_start(const Pattern& pattern, double t, const VectorX& y,
                                const VectorX& yp) {
   JacobianParts parts(pattern);

@@ -1,60 +1,60 @@
 #pragma once
-/// Tolerances follow the motion: an error of a micrometre is nothing where a device moves by
-/// metres, and all where it moves by micrometres. Where bodies turn much more than they are
-/// displaced, as a top that spins upright, those of translations follow the displacement.
+/// Tolerances in proportion to the motion: an error of a micrometre matters only where a device
+/// moves by micrometres. If bodies turn much more than they are displaced (a spinning top), the
+/// tolerances of translations follow the displacement.
 
 #include "hydrodae/system/jacobian.h"
 
 namespace hydrodae::system {
 
-/// Part of the motion of a group below which the tolerance of translations does not follow them.
+/// Smallest translation, as part of the motion of a group, that sets its tolerance.
 inline constexpr double least_translation = 1e-3;
 
-/// Motion up to which a body counts as at rest: what rounding moves [levers, rad].
+/// Largest motion of a body that counts as at rest: the effect of rounding [levers, rad].
 inline constexpr double rest_motion = 1e-10;
 
-/// Keeps System::motion_scale: by group, the part of the full scales (a tenth of a body's lever)
-/// that the motion takes, between 1 and what rounding of the positions leaves. It is the largest of
-/// the displacement reached so far and, fading, of what the start and the loads let expect. And
-/// System::translation_scale: the part of it that the translations take, 1e-3 at least.
+/// Updates System::motion_scale: by group, the motion as a part of the full scales (a tenth of a
+/// body's lever), between the rounding error of positions and 1. The motion is the larger of the
+/// displacement so far and, fading, the expectation from start and loads. Updates
+/// System::translation_scale, too: the part due to translations, at least 1e-3.
 class MotionScale {
 public:
-  /// @param pattern of the Jacobian
-  /// @param y, yp a consistent start
-  /// @param forced motion to expect of loads and drives, by group in levers (Forcing::motion)
-  /// @param hold time over which that is believed [s]
-  /// @param rtol of the run
+  /// @param pattern  pattern of the Jacobian
+  /// @param y, yp  consistent start
+  /// @param forced  expected motion from loads and drives, by group in levers (Forcing::motion)
+  /// @param hold  time over which this expectation counts [s]
+  /// @param rtol  relative tolerance of the run
   MotionScale(Regime& system, const Pattern& pattern, const VectorX& y, const VectorX& yp,
               const VectorX& forced, double hold, double rtol);
 
-  /// Takes an accepted state; the scales of the system change where the motion outgrew them, or
-  /// stayed far below what was expected.
+  /// Takes an accepted state. The scales change if the motion exceeds them, or stays far below the
+  /// expectation.
   void accept(double t, const VectorX& y);
 
-  /// A load has set in at t that moves more than the scales allow for: the motion to expect of y,
-  /// y' counts as at a start. False where they allow for it.
+  /// Restarts the expectation at t, where a load sets in, from y and y' as at a start. Returns
+  /// false if the scales already allow for the motion.
   bool begin_again(const Pattern& pattern, double t, const VectorX& y, const VectorX& yp);
 
-  /// Largest displacement so far from the start, by group in levers or rad (n_groups,).
+  /// Largest displacement from the start so far, by group in levers or rad (n_groups,).
   const VectorX& reached() const { return state_.reached; }
 
-  /// Has nothing moved by more than rounding? So it is where nothing can move.
+  /// Returns whether nothing has moved by more than rounding; true as well if nothing can move.
   bool at_rest() const {
     return s_.lambda0 == 0 ||
            (state_.reached.size() > 0 && state_.reached.maxCoeff() < rest_motion);
   }
 
-  /// Groups whose motion is below what rounding lets the tolerance follow.
+  /// Notes on groups whose motion is too small for the tolerance to follow, because of rounding.
   std::vector<std::string> notes() const;
 
-  struct State { ///< by group (n_groups,)
+  struct State { ///< quantities by group (n_groups,)
     VectorX expected, reached;
     VectorX expected_translation, translated;
-    VectorX since; ///< time from which on the expected motion is believed [s]
+    VectorX since; ///< start of the period in which the expected motion counts [s]
   };
   const State& state() const { return state_; }
 
-  /// The scales of the system are those that its Held has.
+  /// Sets the state; the scales of the system come from its `Held`.
   void set(State state);
 
 private:
@@ -63,14 +63,14 @@ private:
   bool update(double t);
 
   Regime& s_;
-  VectorX start_; ///< positions (n_q,)
-  VectorX least_; ///< by group
-  VectorX hold_;  ///< by group [s]
+  VectorX start_; ///< positions at the start (n_q,)
+  VectorX least_; ///< lower bound by group, from rounding
+  VectorX hold_;  ///< duration of the expectation by group [s]
   State state_;
 };
 
-/// Displacement of each body from the positions `from` (n_q,): translations over the lever, or the
-/// angle [-] (n_bodies,).
+/// Displacement of each body from the positions `from` (n_q,): the larger of translation over lever
+/// and angle [-] (n_bodies,).
 VectorX displacements(const Regime& system, const VectorX& from, const VectorX& y);
 
 } // namespace hydrodae::system

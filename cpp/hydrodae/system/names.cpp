@@ -1,4 +1,4 @@
-/// Names of unknowns and equations, as a person reads them in messages.
+/// Names of unknowns and equations in messages.
 
 #include "hydrodae/system/names.h"
 

@@ -1,20 +1,20 @@
 #pragma once
-/// How what a law sees changes with its bodies, and how its load acts on them.
+/// Derivatives of the inputs of a law by the poses of its bodies, and of its load on them.
 
 #include "hydrodae/system/elements.h"
 
 namespace hydrodae::system {
 
-/// For w numbers seen of n tangent coordinates (virtual displacements dxi, velocities u):
+/// Gradient of w inputs by n tangent coordinates (virtual displacements dxi, velocities u):
 ///   dx = x_xi dxi,   dv = v_xi dxi + v_u du,   load on the bodies W^T f,   d(W^T) f = turn dxi
 template <int w, int n> struct PortGradient {
-  Eigen::Matrix<double, w, n> x_xi, v_xi, v_u, W; ///< v_u = W, but for delayed laws: 0
-  Eigen::Matrix<double, n, n> turn;               ///< for the load at hand
+  Eigen::Matrix<double, w, n> x_xi, v_xi, v_u, W; ///< v_u = W; for delayed laws v_u = 0
+  Eigen::Matrix<double, n, n> turn;               ///< rotation of W under the present load
 };
 
-/// s of a motion: W = ds/dxi, d(W u) = (T^T u) . dxi, turn = f T. A delayed law feels the present
-/// only where there is no past. Where two points coincide T has no bound, but that of a load which
-/// is zero there, f = f_s s, has the limit f T = f_s (d2(s^2 / 2)/dxi2 - W^T W).
+/// Gradient of a coordinate s: W = ds/dxi, d(W u) = (T^T u) . dxi, turn = f T. A delayed law
+/// depends on the present only if there is no past. T is unbounded where two points coincide. A
+/// load f = f_s s is zero there, and f T tends to f_s (d2(s^2 / 2)/dxi2 - W^T W).
 /// @param load, slope  f and f_s
 inline void motion_gradient(const Regime& s, const Workspace<double>& ws, const PortData& port,
                             const joint::Vector12& row, double load, double slope,
@@ -56,8 +56,8 @@ inline void body_gradient(const BodyState<double>& b, const PortData& port, cons
   out.turn.bottomRightCorner<3, 3>() = skew<double>(b.R.transpose() * moment);
 }
 
-/// A point p of a body: dr = A dxi, dv = A du + V dxi with A = [1, -R [p]x], V = [0, -R [w x p]x];
-/// its force f loads the body by A^T f, which turns by `turn` dxi.
+/// Gradient at a point p of a body: dr = A dxi, dv = A du + V dxi, with A = [1, -R [p]x] and V =
+/// [0, -R [w x p]x]. Its force f loads the body by A^T f, with the derivative `turn` dxi.
 struct PointGradient {
   Eigen::Matrix<double, 3, 6> A, V;
   Matrix6 turn;
@@ -73,7 +73,8 @@ inline PointGradient point_gradient(const BodyState<double>& b, const Vector3& p
   return out;
 }
 
-/// Marker B seen from marker A. Places are the rows `span` of joints. Of rotations, with a the axes
+/// Gradient of the pose of marker B relative to A. Places are the rows `span` of joints. For
+/// rotations, with the axes a
 /// of A, N = R_A^T R_B, dN = -[dphi_A]x N + N [dphi_B]x:
 ///   omega = a^T (N w_B - w_A),   d theta = J(-theta) a^T (N dphi_B - dphi_A)
 inline void marker_gradient(const Regime& s, const Workspace<double>& ws, const PortData& port,

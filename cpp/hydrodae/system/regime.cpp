@@ -10,7 +10,7 @@ namespace hydrodae::system {
 
 namespace {
 
-/// Places of the multipliers in y = [q | u | z | lambda | mu | sigma].
+/// Offsets of the multipliers in y = [q | u | z | lambda | mu | sigma].
 void set_offsets(Regime& s) {
   s.lambdas.assign(s.system.n_rows, redundant);
   s.mus.assign(s.system.n_rows, redundant);
@@ -36,7 +36,7 @@ void set_offsets(Regime& s) {
       s.algebraic[static_cast<std::size_t>(block.first) + k] = block.unknowns[k].algebraic;
 }
 
-/// Into a list that stays where it is: programs hold pointers to its numbers.
+/// Copies into a list without moving it: programs hold pointers to its numbers.
 template <class List> void put(const List& from, List& to) {
   if (from.size() != to.size())
     throw Error("the state is of another scene than the run");

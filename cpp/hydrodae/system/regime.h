@@ -1,29 +1,29 @@
 #pragma once
-/// What holds of a System at a time of a run: which rows, with what multipliers and tolerances, and
-/// what programs and events have set. All that changes between two accepted steps, apart from y, is
-/// here; the System itself is constant.
+/// State of a System at a time of a run: rows that hold, multipliers, tolerances, and values set by
+/// programs and events. Everything except y that changes between accepted steps is here; the System
+/// is constant.
 
 #include "hydrodae/system/system.h"
 
 namespace hydrodae::system {
 
-/// Which equations the rows of the multipliers hold. In all but the first mu = 0.
+/// Equations in the rows of the multipliers. All formulations but the first have mu = 0.
 ///   stabilised   0 = g, 0 = G u               index 2 (Gear, Gupta and Leimkuhler)
 ///   index_2      0 = G u                      the gap g drifts
 ///   index_3      0 = g
 ///   index_1      0 = G u' + gamma + 2 b (G u) + b^2 g    Baumgarte's rate b [1/s], 0: none
-/// Rows given at velocity level stay there, but in index 1.
+/// Rows given at velocity level stay at that level, except in index 1.
 enum class Formulation { stabilised, index_2, index_3, index_1 };
 
 class History;
 
-/// A signal that follows what it is set to like an actuator of first order: T x' = target - x,
-/// exactly, as the target is held.
+/// Signal that follows its target like an actuator of first order, T x' = target - x; exact,
+/// because the target is constant between changes.
 ///
 ///   x(t) = target + (x0 - target) exp(-(t - t0) / T)
 struct Lag {
-  double time = 0.0;              ///< T [s]; 0: at once
-  double since = 0.0, from = 0.0; ///< t0 [s] of the last target, x0
+  double time = 0.0;              ///< time constant T [s]; 0: no lag
+  double since = 0.0, from = 0.0; ///< time t0 of the last target [s], and value x0 at t0
 
   double at(double t, double target) const {
     return time > 0.0 && from != target ? target + (from - target) * std::exp((since - t) / time)
@@ -31,32 +31,33 @@ struct Lag {
   }
 };
 
-/// What events and programs have set.
+/// Values set by events and programs.
 struct Held {
   std::vector<SwitchData::State> modes;     ///< (n_switches,)
-  std::vector<std::vector<double>> signals; ///< of the laws of each list
-  std::vector<std::vector<Lag>> lags; ///< of the first signals of each list; empty: none has one
-  std::vector<double> static_loads;   ///< (n_switches,) of dry friction
+  std::vector<std::vector<double>> signals; ///< signals of the laws of each list
+  std::vector<std::vector<Lag>> lags; ///< lags of the first signals of each list; empty: no lag
+  std::vector<double> static_loads;   ///< (n_switches,) static loads of dry friction
   std::vector<double> rates;          ///< (n_couplers,) constant part of drives at velocity level
-  std::vector<double> nearby;         ///< Turns::value near those now: they fix the turn
-  VectorX motion_scale;               ///< (n_groups,) part of the full scales that its motion takes
-  VectorX translation_scale;          ///< (n_groups,) of which its translations take so much
+  /// Recent values of Turns::value: they select the turn of each angle
+  std::vector<double> nearby;
+  VectorX motion_scale;      ///< (n_groups,) motion as a part of the full scales
+  VectorX translation_scale; ///< (n_groups,) part of motion_scale due to translations
 };
 
 struct Regime : Held {
   using Mode = SwitchData::State;
 
-  /// As a run begins: stabilised, no switch holds, inputs as the case gives them. The system must
-  /// outlive it, and stay as it is.
+  /// @param system  must outlive this object and stay unchanged
+  /// The regime begins as a run does: stabilised, all switches open, inputs from the case.
   explicit Regime(const System& system);
 
-  /// With switches as they are in `modes` (n_switches,).
+  /// Regime with the switches in the states `modes` (n_switches,).
   Regime(const System& system, const std::vector<SwitchData::State>& modes);
 
   const System& system;
   operator const System&() const { return system; }
 
-  // The system's own, by the same names.
+  // Members of the system, under the same names.
   const double& gravity = system.gravity;
   const std::vector<BodyData>& bodies = system.bodies;
   const std::vector<JointData>& joints = system.joints;
@@ -78,29 +79,32 @@ struct Regime : Held {
   Index n_error_groups() const { return system.n_error_groups(); }
   bool has_memory() const { return system.has_memory(); }
 
-  // What the run has chosen.
+  // Formulation chosen by the run.
   Formulation formulation = Formulation::stabilised;
   double baumgarte_rate = 0.0; ///< b of index 1 [1/s]
-  /// What has happened up to the last accepted step (history.h); owned by the run. Null: all has
-  /// been at rest for ever.
+  /// Past up to the last accepted step (history.h); owned by the run. Null: everything was at rest
+  /// before.
   const History* history = nullptr;
 
   const Held& state() const { return *this; }
 
-  /// Then `lay_out` has to be called. Throws Error for what another system holds.
+  /// Sets the held values; call `lay_out` afterwards. Throws Error for values of another system.
   void set(const Held& held);
 
-  // What follows from that: the layout of y and of the residual.
-  Index n = 0;                        ///< unknowns
-  Index n_lambda = 0, n_mu = 0;       ///< rows at velocity level, those also at position level
-  Index mu0 = 0, sigma0 = 0;          ///< where multipliers of positions and of norms begin
-  std::vector<Index> lambdas, mus;    ///< (n_rows,) `redundant`: the row does not hold
-  VectorX scale;                      ///< (n,) what one unit of tolerance means for each unknown
-  VectorX relative;                   ///< (n,) 1 where the tolerance also grows with |y|, else 0
-  VectorX row_scale;                  ///< (n,) size of each residual row that matters, for messages
-  std::vector<bool> algebraic;        ///< (n,) multipliers, and what elements declare so
-  std::vector<std::string> names;     ///< (n,) of the unknowns, as channels
-  std::vector<std::string> row_names; ///< (n,) of the equations
+  // Layout of y and of the residual, derived from the above.
+  Index n = 0; ///< number of unknowns
+  /// Number of rows at velocity level, and of those also at position level
+  Index n_lambda = 0, n_mu = 0;
+  Index mu0 = 0, sigma0 = 0; ///< offsets of the multipliers of positions and of norms
+  /// (n_rows,) indices of multipliers in y; `redundant`: the row does not hold
+  std::vector<Index> lambdas, mus;
+  VectorX scale;     ///< (n,) size of one unit of tolerance for each unknown
+  VectorX relative;  ///< (n,) 1 if the tolerance also grows with |y|, else 0
+  VectorX row_scale; ///< (n,) size of each residual row that matters, for messages
+  /// (n,) true for multipliers, and for unknowns that elements declare algebraic
+  std::vector<bool> algebraic;
+  std::vector<std::string> names;     ///< (n,) names of the unknowns, as of channels
+  std::vector<std::string> row_names; ///< (n,) names of the equations
 
   bool holds(const Row& row) const { return lambdas[row.number] != redundant; }
   Index lambda(const Row& row) const { return lambdas[row.number]; }
@@ -109,18 +113,18 @@ struct Regime : Held {
   Mode mode(const SwitchData& element) const { return modes[element.number]; }
   bool holds(const SwitchData& element) const { return SwitchData::holds(mode(element)); }
 
-  /// What the motions of a coupler sum up to, its drive apart: of a stop the bound that it is at.
+  /// Constant right side of a coupler without its drive; for a stop, its present bound.
   double offset(const CouplerData& c) const {
     if (c.of_switch < 0 || c.velocity_level)
       return c.offset;
     const SwitchData& stop = switches[static_cast<std::size_t>(c.of_switch)];
     return mode(stop) == Mode::lower ? stop.lower : stop.upper;
   }
-  /// Signals of the laws of one of its lists, as programs have set them.
+  /// Signals of the laws of a list, as programs have set them.
   const double* held(const ElementList& list) const {
     return signals[static_cast<std::size_t>(&list - elements.data())].data();
   }
-  /// What they are at the time t [s], those with a lag in `room`.
+  /// Signals at time t [s]; signals with a lag are evaluated into `room`.
   const double* held(const ElementList& list, double t, std::vector<double>& room) const {
     const auto i = static_cast<std::size_t>(&list - elements.data());
     if (lags[i].empty())
@@ -130,30 +134,30 @@ struct Regime : Held {
       room[k] = lags[i][k].at(t, signals[i][k]);
     return room.data();
   }
-  /// f, f', f'' of its drive.
+  /// Drive of a coupler: f, f', f''.
   std::array<double, 3> drive(const CouplerData& c, double t) const;
 
-  /// A position or velocity, of a body or of a point.
+  /// Returns whether unknown i is a position or velocity, of a body or of a point.
   bool is_motion(Index i) const { return i < z0 || is_absolute(i); }
-  /// A state whose scale does not follow the motion.
+  /// Returns whether unknown i is a state whose scale does not follow the motion.
   bool is_absolute(Index i) const { return i >= z0 && i < lambda0 && relative[i] == 0.0; }
   bool is_algebraic(Index i) const { return algebraic[static_cast<std::size_t>(i)]; }
 };
 
-/// Puts a switch into a mode: its row holds or not, its friction slips or not. Then `lay_out` has
-/// to be called; of y only q, u, z keep their places.
+/// Sets the mode of a switch: whether its row holds, whether its friction slips. Call `lay_out`
+/// afterwards; only q, u, z keep their places in y.
 void set_mode(Regime& regime, const SwitchData& element, Regime::Mode mode);
 
-/// Offsets, scales and names of all unknowns, after rows came or went.
+/// Sets offsets, scales and names of all unknowns, after rows were added or removed.
 void lay_out(Regime& regime);
 
-/// Scales of all unknowns, after those of the motion changed.
+/// Sets the scales of all unknowns, after the scales of the motion changed.
 void set_scales(Regime& regime);
 
-/// y from another layout of the same system: only q, u, z keep their places, the rest is zero.
+/// Converts y from another layout of the same system: q, u, z keep their places, the rest is zero.
 void resize(const Regime& regime, VectorX& y);
 
-/// The start: y with positions, velocities, states as declared and zero multipliers.
+/// Initial y: positions, velocities, states as declared; multipliers zero.
 VectorX initial_state(const Regime& regime);
 
 } // namespace hydrodae::system

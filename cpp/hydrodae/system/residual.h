@@ -8,8 +8,8 @@
 
 namespace hydrodae::system {
 
-/// The two rows of a constraint by the formulation (see regime.h), from its gap, rate and rate of
-/// the rate; `mu` < 0: a row at velocity level.
+/// Writes the two rows of a constraint in the formulation of the run (see regime.h), from its gap,
+/// rate and acceleration; `mu` < 0: a row at velocity level.
 template <class S>
 void constraint_rows(const Regime& s, const S* y, Index lambda, Index mu, const S& gap,
                      const S& rate, const S& acceleration, S* residual) {
@@ -26,8 +26,8 @@ void constraint_rows(const Regime& s, const S* y, Index lambda, Index mu, const 
   }
 }
 
-/// gradient . u' + u . (d gradient / dt): what index 1 needs, zero elsewhere. (Index 1 is for
-/// comparisons on the kernel's scalar; other scalars only pass through here.)
+/// Acceleration of a row, gradient . u' + u . (d gradient / dt), for index 1; zero elsewhere.
+/// (Index 1 is for comparisons in double; other scalars only compile.)
 template <class S, class Curvature>
 S row_acceleration(const Regime& s, const Workspace<S>& ws, const JointData& j,
                    const joint::Vec12<S>& gradient, const joint::Vec12<S>& u,
@@ -39,7 +39,7 @@ S row_acceleration(const Regime& s, const Workspace<S>& ws, const JointData& j,
   return gradient.cwiseProduct(u_dot).sum() + u.cwiseProduct(turned).sum();
 }
 
-/// Poses without derivatives, for the hand-written curvature.
+/// Poses without derivatives, as the hand-written curvature needs them.
 template <class S>
 joint::Geometry<double> geometry_values(const JointData& j, const Workspace<S>& ws) {
   auto plain = [](const auto& x) {
@@ -54,7 +54,8 @@ joint::Geometry<double> geometry_values(const JointData& j, const Workspace<S>& 
                                  b ? Matrix3(plain(ws.bodies[j.B.body].R)) : identity);
 }
 
-/// Constraint rows, and G^T lambda, G^T mu added to the loads and shifts of the bodies.
+/// Writes the constraint rows of joints; adds G^T lambda and G^T mu to the loads and shifts of the
+/// bodies.
 template <class S> void add_joints(const Regime& s, Workspace<S>& ws, const S* y, S* residual) {
   for (const JointData& j : s.joints) {
     const joint::Geometry<S> g = joint_geometry<S>(j, ws.bodies);
@@ -77,7 +78,7 @@ template <class S> void add_joints(const Regime& s, Workspace<S>& ws, const S* y
   }
 }
 
-/// Rows on motions: sum_k c_k s_k = offset + f(t) and its rate, or at velocity level only.
+/// Writes the rows of couplers: sum_k c_k s_k = offset + f(t) and its rate, or the rate only.
 template <class S>
 void add_couplers(const Regime& s, Workspace<S>& ws, double t, const S* y, S* residual) {
   for (const CouplerData& coupler : s.couplers) {
@@ -138,7 +139,7 @@ void body_rows(const Regime& s, const Workspace<S>& ws, const S* y, const S* yp,
   }
 }
 
-/// Poses at (t, y, y'), and the weights as the only loads, into `ws`.
+/// Writes poses at (t, y, y') into `ws`, with the weights as the only loads.
 template <class S>
 void begin_loads(const Regime& s, Workspace<S>& ws, double t, const S* y, const S* yp) {
   unpack<S>(s, y, yp, ws.bodies);
@@ -150,7 +151,7 @@ void begin_loads(const Regime& s, Workspace<S>& ws, double t, const S* y, const 
   }
 }
 
-/// The rows of lambda and mu alone; the loads of the reactions, and the weights, into `ws`.
+/// Writes the rows of lambda and mu only; loads of reactions and weights go into `ws`.
 template <class S>
 void constraint_residual(const Regime& s, Workspace<S>& ws, double t, const S* y, const S* yp,
                          S* residual) {
@@ -159,7 +160,7 @@ void constraint_residual(const Regime& s, Workspace<S>& ws, double t, const S* y
   add_couplers<S>(s, ws, t, y, residual);
 }
 
-/// The rows of q, u and z without constraints: where lambda and mu are zero, as in F(t, y, y').
+/// Writes the rows of q, u and z without constraints: equal to F(t, y, y') for zero lambda and mu.
 template <class S>
 void free_residual(const Regime& s, Workspace<S>& ws, double t, const S* y, const S* yp,
                    S* residual) {
@@ -169,7 +170,7 @@ void free_residual(const Regime& s, Workspace<S>& ws, double t, const S* y, cons
   body_rows<S>(s, ws, y, yp, residual);
 }
 
-/// F(t, y, y') into `residual`; arrays of length system.n. No allocation.
+/// Writes F(t, y, y') into `residual`; arrays have length system.n. Allocates nothing.
 template <class S>
 void residual(const Regime& s, Workspace<S>& ws, double t, const S* y, const S* yp, S* residual) {
   constraint_residual<S>(s, ws, t, y, yp, residual);

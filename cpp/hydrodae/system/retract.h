@@ -3,11 +3,11 @@
 
 namespace hydrodae::system {
 
-/// q moved along virtual displacements: `step` has one entry per velocity unknown [m or rad];
-/// quaternions turn by exp(step), angles and translations add. Other unknowns stay.
+/// Moves q along virtual displacements: `step` has one entry per velocity unknown [m or rad].
+/// Quaternions turn by exp(step), angles and translations add; other unknowns stay.
 void retract(const System& system, const VectorX& step, VectorX& y);
 
-/// The quaternions of free bodies made unit ones.
+/// Normalises the quaternions of free bodies.
 void normalise(const System& system, VectorX& y);
 
 } // namespace hydrodae::system

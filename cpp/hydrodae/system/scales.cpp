@@ -1,5 +1,5 @@
-/// What one unit of tolerance means for each unknown. Global coordinates say nothing about the size
-/// of a motion, so positions are measured against a length of the body itself.
+/// Size of one unit of tolerance for each unknown. Global coordinates do not show the size of a
+/// motion, so positions are measured against a length of the body.
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@ namespace hydrodae::system {
 
 namespace {
 
-/// Sizes at a joint: those of the lighter of its bodies, which feels an error of the multiplier
-/// most.
+/// Scales at a joint: those of the lighter body, which is more sensitive to errors of the
+/// multiplier.
 struct JointScale {
   double force = 0.0, length = 1.0, angle = 1.0, time = 1.0;
 };
@@ -57,7 +57,7 @@ void take_time_scales(System& s, const VectorX& y, const VectorX& yp) {
       if (rate > 0.0)
         time = std::min(time, std::sqrt(size / rate));
     }
-  for (BodyData& b : s.bodies) { // at rest without loads any scale will do
+  for (BodyData& b : s.bodies) { // bodies at rest without loads: any scale works
     if (b.time_scale_known || b.group < 0)
       continue;
     const double time = shortest[static_cast<std::size_t>(b.group)];

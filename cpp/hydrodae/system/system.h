@@ -9,8 +9,8 @@
 ///
 /// State vector y = [q | u | z | lambda | mu | sigma]; the row of an algebraic unknown holds the
 /// equation it belongs to: lambda - velocity constraint, mu - position constraint, sigma - norm.
-/// A System is built once and constant from then on; which of its rows hold at a time of a run, and
-/// where their multipliers stand in y, is held by a Regime (regime.h).
+/// A System is constant once built. A Regime (regime.h) holds which rows apply at a time of a run,
+/// and the places of their multipliers in y.
 
 #include <algorithm>
 #include <array>
@@ -35,42 +35,53 @@ struct BodyData {
   enum class Rotation { locked, about_axis, free };
   std::string name;
   enum class Kind { whole, mode, attachment } kind = Kind::whole; ///< see model/deformation.h
-  bool is_mode() const { return kind == Kind::mode; }             ///< its x is the amplitude
-  double mass = 0.0;                                              ///< [kg]
-  Matrix3 inertia = Matrix3::Zero();          ///< about the centre of gravity, body axes [kg m2]
-  Vector3 reference = Vector3::Zero();        ///< centre of gravity in the reference pose [m]
-  Vector3 position = Vector3::Zero();         ///< start, and for ever along locked translations [m]
-  Vector4 orientation{1, 0, 0, 0};            ///< start, and for ever if the rotation is locked
-  Vector3 velocity = Vector3::Zero();         ///< start [m/s]
-  Vector3 angular_velocity = Vector3::Zero(); ///< start, body axes [rad/s]
+  /// True: a mode, whose x is its amplitude
+  bool is_mode() const { return kind == Kind::mode; }
+  double mass = 0.0;                   ///< [kg]
+  Matrix3 inertia = Matrix3::Zero();   ///< inertia about the centre of gravity, body axes [kg m2]
+  Vector3 reference = Vector3::Zero(); ///< centre of gravity in the reference pose [m]
+  /// Position at the start; constant along locked translations [m]
+  Vector3 position = Vector3::Zero();
+  /// Orientation at the start; constant if the rotation is locked
+  Vector4 orientation{1, 0, 0, 0};
+  Vector3 velocity = Vector3::Zero();         ///< velocity at the start [m/s]
+  Vector3 angular_velocity = Vector3::Zero(); ///< angular velocity at the start, body axes [rad/s]
   Rotation rotation = Rotation::locked;
-  int axis = 1;                 ///< of Rotation::about_axis
-  std::array<int, 6> active{};  ///< tangent component of each velocity unknown
-  int n_active = 0;             ///< number of velocity unknowns
-  int n_translations = 0;       ///< how many of them are translations (they come first)
-  int n_position = 0;           ///< number of position unknowns (n_active, or 7)
-  Index q0 = 0, u0 = 0;         ///< offsets into y
-  Index norm = -1;              ///< of its quaternion, among those of all bodies; -1 if absent
-  double length_scale = 1.0;    ///< [m], what a position error is measured by
-  double lever = 1.0;           ///< [m], turns lengths into angles
-  double arm = 1.0;             ///< [m], to its farthest joint; the lever where no joint is off it
-  bool time_scale_known = true; ///< else taken from the start (no gravity, none given)
-  double time_scale = 1.0;      ///< [s], turns lengths into velocities
-  double scale_mass = 1.0;      ///< [kg], its own, or without one the largest of its group
-  int followed = -1;            ///< its rotation in System::rotations; -1: not free, or locked
-  int mechanism = -1;           ///< of bodies that constraint rows hold together; -1: cannot move
-  int group = -1; ///< of bodies that move each other in any way: by rows, forces, or the water
+  int axis = 1;                ///< axis of Rotation::about_axis
+  std::array<int, 6> active{}; ///< tangent component of each velocity unknown
+  int n_active = 0;            ///< number of velocity unknowns
+  int n_translations = 0;      ///< number of translations among them (they come first)
+  int n_position = 0;          ///< number of position unknowns (n_active, or 7)
+  Index q0 = 0, u0 = 0;        ///< offsets into y
+  /// Number of its quaternion among those of all bodies; -1: no quaternion
+  Index norm = -1;
+  double length_scale = 1.0; ///< length that position errors are relative to [m]
+  double lever = 1.0;        ///< lever that converts lengths into angles [m]
+  /// Arm to its farthest joint [m]; the lever if all joints are at its centre
+  double arm = 1.0;
+  /// False: taken from the motion at the start (no gravity, no scale given)
+  bool time_scale_known = true;
+  double time_scale = 1.0; ///< time that converts lengths into velocities [s]
+  /// Mass of the body, or if that is zero the largest mass of its group [kg]
+  double scale_mass = 1.0;
+  /// Index of its rotation in System::rotations; -1: not free, or locked
+  int followed = -1;
+  /// Number of its mechanism (bodies connected by constraint rows); -1: fixed
+  int mechanism = -1;
+  /// Number of its group (bodies that act on each other by rows, forces or the water)
+  int group = -1;
 };
 
-inline constexpr Index redundant = -1; ///< in place of a multiplier: the row follows from others
+/// Index in place of a multiplier: the row follows from others
+inline constexpr Index redundant = -1;
 
-/// A row of constraint, with two multipliers while it holds.
+/// Constraint row, with two multipliers while it holds.
 struct Row {
-  std::size_t number = 0; ///< among all rows
-  bool dropped = false;   ///< it follows from others, and never holds
+  std::size_t number = 0; ///< number among all rows
+  bool dropped = false;   ///< true: the row follows from others and never holds
 };
 
-/// A row of a joint that restricts a free coordinate.
+/// Row of a joint that restricts a free coordinate.
 struct RowData : Row {
   joint::BasicRow kind;
   explicit RowData(const joint::BasicRow& basic) : kind(basic) {}
@@ -82,33 +93,34 @@ struct JointData {
   joint::Marker A, B;
   joint::Parameters parameters;
   std::vector<RowData> rows; ///< rows that restrict a free coordinate
-  int first_motion = 0;      ///< of its motions in System::motions
-  bool hidden = false;       ///< stands for a coordinate of a body; not reported
+  int first_motion = 0;      ///< index of its first motion in System::motions
+  bool hidden = false;       ///< true: stands for a coordinate of a body; not reported
 };
 
-/// A coordinate along a free motion of a joint. Angles are followed over turns: Workspace::turns
-/// holds the value at the last accepted step.
+/// Coordinate along a free motion of a joint. Angles count full turns: Workspace::turns holds the
+/// value at the last accepted step.
 struct MotionData {
   int joint = 0;
   joint::FreeMotion motion;
   std::string name;   ///< angle, displacement, angle_2, ...
-  double start = 0.0; ///< near the value at the start: fixes the turn of an angle
+  double start = 0.0; ///< approximate value at the start: selects the turn of an angle
 };
 
-/// A rotation that a law or the results see as a vector: of a body from its reference pose turned
-/// by `turn`, or of marker B of a joint against marker A. Followed over turns as angles are.
+/// Rotation that a law or the results use as a vector: of a body from its reference pose rotated by
+/// `turn`, or of marker B of a joint against marker A. It counts full turns as angles do.
 struct RotationData {
   int body = -1, joint = -1;
   Vector4 turn{1, 0, 0, 0};
 };
 
-/// What a motion is to be at the start; met by the assembly together with the joints.
+/// Prescribed value or rate of a motion at the start; the assembly solves for it together with the
+/// joints.
 struct MotionStart {
   int motion = 0;
   std::optional<double> value, rate;
 };
 
-/// A condition on motions: sum_k factor_k s_k = offset + f(t), or on their rates: = f(t).
+/// Condition on motions: sum_k factor_k s_k = offset + f(t), or on their rates: = f(t).
 struct CouplerData : Row {
   struct Term {
     int motion = 0;
@@ -118,91 +130,97 @@ struct CouplerData : Row {
   std::vector<Term> terms;
   double offset = 0.0;
   Drive drive;
-  bool velocity_level = false; ///< then it has no mu
-  bool keeps_start = false;    ///< the offset is what the terms sum up to at the start
-  int of_switch = -1;          ///< in System::switches, -1: it always holds
-  bool hidden = false;         ///< holds an attachment; not reported
+  bool velocity_level = false; ///< true: a condition on rates, without mu
+  bool keeps_start = false;    ///< true: the offset is the sum of the terms at the start
+  int of_switch = -1;          ///< index in System::switches; -1: the coupler always holds
+  bool hidden = false;         ///< true: holds an attachment; not reported
 };
 
-/// Where a law is joined to the bodies: along a motion or several, on a body, or between the
+/// Connection of a law to the bodies: along one or several motions, on a body, or between the
 /// markers of a (hidden) joint.
 struct PortData {
-  std::string component;    ///< under which the results list its loads
-  int motion = -1;          ///< in System::motions
-  int delay = -1;           ///< in System::delays, -1: none
-  int body = -1;            ///< in System::bodies
-  int joint = -1;           ///< in System::joints; of a motion: its own
-  int followed = -1;        ///< in System::rotations, of what it sees as a vector; -1: nothing
-  Vector4 turn{1, 0, 0, 0}; ///< the law's reference pose over that of the body, a quaternion
-  std::vector<joint::Marker> points; ///< of Port::points
-  std::vector<int> motions;          ///< of Port::along_coordinates, in System::motions
-  std::vector<int> bodies;           ///< of these motions, each once; -1: the ground
+  std::string component; ///< name of the component in the results
+  int motion = -1;       ///< index in System::motions
+  int delay = -1;        ///< index in System::delays; -1: no delay
+  int body = -1;         ///< index in System::bodies
+  int joint = -1;        ///< index in System::joints; for a motion, its joint
+  /// Index in System::rotations of the rotation that the law reads as a vector; -1: none
+  int followed = -1;
+  /// Rotation from the body's reference pose to that of the law, a quaternion
+  Vector4 turn{1, 0, 0, 0};
+  std::vector<joint::Marker> points; ///< points of Port::points
+  /// Motions of Port::along_coordinates, indices in System::motions
+  std::vector<int> motions;
+  std::vector<int> bodies; ///< bodies of `motions`, each once; -1: the ground
 
-  /// A row of the joint that loads body B by lambda `on_b`: force and moment at B's marker, axes of
-  /// marker A.
+  /// Row of a joint that loads body B by lambda `on_b`: force and moment at marker B, in the axes
+  /// of marker A.
   struct Pressing {
-    std::size_t row = 0; ///< in JointData::rows
+    std::size_t row = 0; ///< index in JointData::rows
     Vector6 on_b = Vector6::Zero();
   };
-  std::vector<Pressing> reaction;          ///< of laws that feel that of their joint
-  std::optional<element::Bearing> bearing; ///< of those among them that are friction
+  /// Reaction rows of the joint, for laws that depend on them
+  std::vector<Pressing> reaction;
+  /// Bearing, for friction laws that depend on the reaction
+  std::optional<element::Bearing> bearing;
 };
 
-/// Laws of one type with their ports.
+/// Laws of one type, with their ports.
 struct ElementList {
   std::shared_ptr<const element::Elements> laws;
-  std::vector<PortData> ports; ///< one a law
-  Index z0 = 0;                ///< states of the first law, in y
+  std::vector<PortData> ports; ///< one port for each law
+  Index z0 = 0;                ///< offset of the states of the first law in y
 };
 
-/// A motion that a force feels some time later.
+/// Motion that a force reads with a delay.
 struct DelayData {
   int motion = 0;
-  double time = 0.0; ///< tau [s]
+  double time = 0.0; ///< delay tau [s]
 };
 
-/// A point of a body whose motion is reported.
+/// Point of a body whose motion is reported.
 struct MarkerData {
   std::string name;
   int body = 0;
-  Vector3 point = Vector3::Zero(); ///< from the centre of gravity, body axes [m]
-  bool body_axes = false;          ///< of velocity and acceleration
+  Vector3 point = Vector3::Zero(); ///< position relative to the centre of gravity, body axes [m]
+  bool body_axes = false;          ///< true: velocity and acceleration are in body axes
 };
 
-/// A place where the elevation is reported.
+/// Place where the elevation is reported.
 struct GaugeData {
   std::string name;
-  double x = 0.0, y = 0.0;   ///< where it stands [m]
-  int marker = -1;           ///< in System::markers, with which it goes; -1: none
-  std::vector<double> ahead; ///< of forecasts [s]
+  double x = 0.0, y = 0.0;   ///< position [m]
+  int marker = -1;           ///< index in System::markers of the marker that carries it; -1: fixed
+  std::vector<double> ahead; ///< lead times of forecasts [s]
 };
 
-/// A coupler that holds at times only. While it is open it has no multipliers, and costs nothing.
+/// Coupler that holds only at times. While open, it has no multipliers and costs nothing.
 ///   stop      lower <= s <= upper; its load pushes back only
 ///   friction  stick: s' = 0 while |load| <= static_load; slip: load -+ kinetic_load (the signal of
-///   its law). Of a law that the joint presses both are coefficients.
+///   its law). With a bearing both are coefficients.
 struct SwitchData {
   enum class Kind { stop, friction };
   enum class State { open, lower, upper, stick, forward, backward };
   Kind kind = Kind::stop;
-  std::size_t number = 0; ///< in System::switches
-  int coupler = 0;        ///< in System::couplers
-  int motion = 0;         ///< in System::motions
+  std::size_t number = 0; ///< index in System::switches
+  int coupler = 0;        ///< index in System::couplers
+  int motion = 0;         ///< index in System::motions
   double lower = -INFINITY, upper = INFINITY, restitution = 0.0;
   double static_load = 0.0, kinetic_load = 0.0; ///< [N or N m], or coefficients [-]
-  std::optional<double> contact_time;           ///< of an impact [s]
-  int list = -1, law = -1;                      ///< of friction: in System::elements, and in there
+  std::optional<double> contact_time;           ///< duration of an impact [s]
+  /// Indices of a friction law: list in System::elements, law in the list
+  int list = -1, law = -1;
   static bool holds(State state) {
     return state == State::lower || state == State::upper || state == State::stick;
   }
 };
 
-/// States of one element, one after the other in y.
+/// States of one element, contiguous in y.
 struct StateBlock {
-  std::string owner; ///< "force pto": in a list of costs
-  std::string path;  ///< "forces/pto": their names begin with it
-  Index first = 0;   ///< in y
-  int body = -1;     ///< that moves, whose group and time are theirs too; -1: none
+  std::string owner; ///< "force pto": name in the list of costs
+  std::string path;  ///< "forces/pto": prefix of the names of the states
+  Index first = 0;   ///< offset in y
+  int body = -1;     ///< moving body whose group and time scale the states take; -1: none
   std::vector<element::Unknown> unknowns;
 };
 
@@ -210,14 +228,14 @@ struct StateBlock {
 /// (nodes of a line), or other states of one element.
 struct Block {
   std::string name;   ///< "buoy", "forces/chain"
-  int body = -1;      ///< in System::bodies, or
-  int states = -1;    ///< in System::states
-  int group = -1;     ///< in System::error_group; -1: it cannot move
-  bool moves = false; ///< a body, or points: its errors are displacements
+  int body = -1;      ///< index in System::bodies, or -1
+  int states = -1;    ///< index in System::states, or -1
+  int group = -1;     ///< index of its error group, see System::error_group; -1: fixed
+  bool moves = false; ///< true for bodies and points: the errors are displacements
 };
 
 struct System {
-  // Written once, in system.cpp: it holds much, and many files hold one.
+  // Defined in system.cpp once: the class is large, and many files use it.
   System();
   ~System();
   System(const System&);
@@ -238,25 +256,27 @@ struct System {
   std::vector<DelayData> delays;
   HydroData hydro;
 
-  Index n_q = 0, n_u = 0, n_z = 0;   ///< positions, velocities, states of elements
-  Index u0 = 0, z0 = 0, lambda0 = 0; ///< where the last two begin in y, and the multipliers
-  Index memory0 = 0; ///< states from there on are linear with constant coefficients, and condensed
-  Index n_norms = 0; ///< of quaternions
-  std::size_t n_rows = 0; ///< of constraint, those among them that never hold or not now
+  Index n_q = 0, n_u = 0, n_z = 0;   ///< number of positions, velocities, states of elements
+  Index u0 = 0, z0 = 0, lambda0 = 0; ///< offsets of velocities, states and multipliers in y
+  Index memory0 = 0;      ///< offset of the condensed states: linear with constant coefficients
+  Index n_norms = 0;      ///< number of quaternions
+  std::size_t n_rows = 0; ///< number of constraint rows, including those that never hold or not now
   std::vector<StateBlock> states;
-  std::vector<Block> blocks;          ///< bodies, then states that there are, each in their order
-  int n_mechanisms = 0, n_groups = 0; ///< of the bodies that can move (mechanisms.h)
-  std::vector<int> group;             ///< (lambda0,) of each position, velocity and state
-  std::vector<int> error_group;       ///< (lambda0,) the same; absolute states have their own
-  VectorX group_size;                 ///< (n_error_groups,) how many of these each has
-  bool scales_follow = true;          ///< the motion; else length_scale was given
-  std::vector<std::string> notes;     ///< what the build found worth a note
+  std::vector<Block> blocks;          ///< bodies, then existing states, each in their order
+  int n_mechanisms = 0, n_groups = 0; ///< numbers for the bodies that can move (mechanisms.h)
+  std::vector<int> group;             ///< (lambda0,) group of each position, velocity and state
+  /// (lambda0,) error group: as `group`, but absolute states have their own
+  std::vector<int> error_group;
+  VectorX group_size; ///< (n_error_groups,) number of unknowns in each
+  /// True: scales follow the motion; false: length_scale was given
+  bool scales_follow = true;
+  std::vector<std::string> notes; ///< notes of the build to the user
   std::vector<GaugeData> gauges;
-  sea::WaveField gauged; ///< what these see; without terms if there are no gauges
+  sea::WaveField gauged; ///< waves at the gauges; without terms if there are no gauges
 
   Index n_error_groups() const { return group_size.size(); }
   bool has_memory() const { return memory0 < lambda0; }
-  bool has_waves() const; ///< that any of the elements feels
+  bool has_waves() const; ///< true if any element reads waves.
 };
 
 /// Visits all constraint rows in the order of their multipliers: visit(row, velocity_level).
@@ -268,7 +288,7 @@ template <class Anysystem, class Visitor> void for_each_row(Anysystem& s, Visito
     visit(coupler, coupler.velocity_level);
 }
 
-/// Visits all that loads the bodies, weight apart, in the order of states and results:
+/// Visits all lists that load the bodies (weight excluded), in the order of states and results:
 /// visit(list). Each type of list has a declaration (declare.h), loads and residuals (`add_loads`),
 /// derivatives (`Assembly::add`) and observations (`Observer::observe`).
 template <class Anysystem, class Visitor> void for_each_list(Anysystem& s, Visitor&& visit) {
@@ -278,8 +298,8 @@ template <class Anysystem, class Visitor> void for_each_list(Anysystem& s, Visit
     visit(s.hydro);
 }
 
-/// Visits the points of a block of states: visit(place, velocity, length), the first two where they
-/// begin in y, the last what displacements are measured by [m].
+/// Visits the points of a block of states: visit(place, velocity, length). The first two are
+/// offsets in y; displacements are relative to `length` [m].
 template <class Visitor> void for_each_point(const StateBlock& states, Visitor&& visit) {
   for (std::size_t k = 0; k < states.unknowns.size(); k += 6) {
     const Index place = states.first + static_cast<Index>(k);
@@ -287,7 +307,7 @@ template <class Visitor> void for_each_point(const StateBlock& states, Visitor&&
   }
 }
 
-/// Visits all laws: visit(list, its index, port).
+/// Visits all laws: visit(list, index of the law, port).
 template <class Visitor> void for_each_law(const System& s, Visitor&& visit) {
   for (const ElementList& list : s.elements)
     for (std::size_t k = 0; k < list.ports.size(); ++k)
@@ -310,7 +330,7 @@ void for_each_body(const System& s, const PortData& port, Visitor&& visit) {
     visit(body);
 }
 
-/// Is a point of Port::points the first of those on its body?
+/// Returns whether a point of Port::points is the first one on its body.
 inline bool is_first_of_its_body(const PortData& port, std::size_t point) {
   for (std::size_t i = 0; i < point; ++i)
     if (port.points[i].body == port.points[point].body)
@@ -318,15 +338,15 @@ inline bool is_first_of_its_body(const PortData& port, std::size_t point) {
   return true;
 }
 
-/// Takes the waves away.
+/// Removes the waves.
 void calm(System& system);
 
-/// Offsets of positions, velocities and states, numbers of rows and groups, after bodies, rows or
-/// elements were added.
+/// Sets the offsets of positions, velocities and states and the numbers of rows and groups, after
+/// bodies, rows or elements were added.
 void number(System& system);
 
-/// Time scales of bodies that are still without one, from the velocities and accelerations of the
-/// start: the time in which a body moves, or speeds up by, its own length.
+/// Sets the missing time scales of bodies from velocities and accelerations at the start: the time
+/// in which a body moves, or accelerates, by its own length.
 void take_time_scales(System& system, const VectorX& y, const VectorX& yp);
 
 } // namespace hydrodae::system

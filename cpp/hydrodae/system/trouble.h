@@ -1,5 +1,5 @@
 #pragma once
-/// Loads that are no numbers: which force, and why.
+/// Loads that are not numbers: name of the force and reason.
 
 #include <string>
 
@@ -7,9 +7,8 @@
 
 namespace hydrodae::system {
 
-/// What a message says of the first law whose load in the last evaluation of `ws` is no number,
-/// though it saw numbers: "catenary 'bow': end B is 2 m below the seabed ..."; empty if
-/// there is no such law.
+/// Message on the first law whose load in the last evaluation of `ws` is not a number although its
+/// inputs are: "catenary 'bow': end B is 2 m below the seabed ..."; empty if there is no such law.
 std::string unknown_load(const Regime& system, const Workspace<double>& ws);
 
 } // namespace hydrodae::system

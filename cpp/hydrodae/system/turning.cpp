@@ -6,7 +6,7 @@ namespace {
 
 Eigen::Quaterniond unit(const Vector4& p) { return {p[0], p[1], p[2], p[3]}; }
 
-/// Angle times axis, up to a full turn.
+/// Rotation vector (angle times axis), up to a full turn.
 Vector3 whole_vector(const Eigen::Quaterniond& p) {
   const double sine = p.vec().norm();
   return sine > 0.0 ? Vector3(2.0 * std::atan2(sine, p.w()) / sine * p.vec()) : Vector3::Zero();
@@ -24,7 +24,8 @@ std::vector<double> start_turns(const System& s) {
   };
   for (const RotationData& r : s.rotations) {
     Eigen::Quaterniond p = of_body(r.body) * unit(r.turn).conjugate();
-    bool least = r.turn[0] != 1.0; // whose own turn is known up to full turns only
+    // true for a rotated reference: its turns are known up to full turns only
+    bool least = r.turn[0] != 1.0;
     if (r.joint >= 0) {
       const JointData& j = s.joints[static_cast<std::size_t>(r.joint)];
       p = (of_body(j.A.body) * Eigen::Quaterniond(j.A.axes)).conjugate() * of_body(j.B.body) *

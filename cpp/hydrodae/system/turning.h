@@ -1,10 +1,10 @@
 #pragma once
-/// Rotations that laws and results see as vectors, followed over turns.
+/// Rotations as vectors for laws and results, with full turns counted.
 ///
-/// A rotation by the angle a about the axis e is one by a + 2 pi k, too. Of these vectors the one
-/// counts that is nearest to where the last accepted step and the rates lead, so that it goes on
-/// beyond half a turn. That counts turns as long as the axis stays; where it does not, a full turn
-/// has no direction (run/guard_turns.cpp).
+/// A rotation by the angle a about the axis e equals one by a + 2 pi k. The vector nearest to the
+/// prediction from the last accepted step and the rates is taken, so that it continues beyond half
+/// a turn. Turns are counted while the axis stays; where it does not, a full turn has no direction
+/// (run/guard_turns.cpp).
 
 #include <cmath>
 
@@ -14,7 +14,7 @@ namespace hydrodae::system {
 
 using element::BodyState;
 
-/// Poses of the two bodies of a joint, seen through its markers; the ground is body -1.
+/// Poses of the two bodies of a joint at its markers; the ground is body -1.
 template <class S>
 joint::Geometry<S> joint_geometry(const JointData& j, const std::vector<BodyState<S>>& states) {
   const Vec3<S> origin = Vec3<S>::Zero();
@@ -24,7 +24,7 @@ joint::Geometry<S> joint_geometry(const JointData& j, const std::vector<BodyStat
                             b ? states[j.B.body].r : origin, b ? states[j.B.body].R : identity);
 }
 
-/// (v_A, w_A, v_B, w_B) of a joint.
+/// Velocity (v_A, w_A, v_B, w_B) of the bodies of a joint.
 template <class S>
 joint::Vec12<S> joint_velocity(const JointData& j, const std::vector<BodyState<S>>& states) {
   joint::Vec12<S> u = joint::Vec12<S>::Zero();
@@ -35,7 +35,7 @@ joint::Vec12<S> joint_velocity(const JointData& j, const std::vector<BodyState<S
   return u;
 }
 
-/// p o conj(q), of quaternions (w, x, y, z).
+/// Quaternion product p o conj(q), each (w, x, y, z).
 template <class S> Vec4<S> over(const Vec4<S>& p, const Vec4<S>& q) {
   const Vec3<S> a = p.template tail<3>(), b = -q.template tail<3>();
   Vec4<S> out;
@@ -43,15 +43,15 @@ template <class S> Vec4<S> over(const Vec4<S>& p, const Vec4<S>& q) {
   return out;
 }
 
-/// The numbers of a vector without their derivatives.
+/// Values of a vector without derivatives.
 template <class S> Vector3 values(const Vec3<S>& v) {
   return {joint::value_of(v[0]), joint::value_of(v[1]), joint::value_of(v[2])};
 }
 
-/// The rotation vector of a quaternion of any norm on the turn nearest to `near` [rad].
+/// Rotation vector of a quaternion of any norm, on the turn nearest to `near` [rad].
 template <class S> Vec3<S> nearest_rotation(const Vec4<S>& p, const Vector3& near) {
   using std::sqrt;
-  constexpr double lost = 1e-8; // sqrt of rounding: below it the axis is that of `near`
+  constexpr double lost = 1e-8; // sqrt of the rounding error: below it, `near` gives the axis
   const Vec3<S> least = rotation_vector<S>(p);
   const Vector3 value = values<S>(least);
   const double angle = value.norm();
@@ -64,7 +64,7 @@ template <class S> Vec3<S> nearest_rotation(const Vec4<S>& p, const Vector3& nea
   return least + Vec3<S>((2.0 * pi * more * axis).template cast<S>());
 }
 
-/// A followed rotation as a quaternion of any norm.
+/// Quaternion of a followed rotation, of any norm.
 template <class S>
 Vec4<S> attitude_of(const System& s, const RotationData& r,
                     const std::vector<BodyState<S>>& states) {
@@ -76,7 +76,7 @@ Vec4<S> attitude_of(const System& s, const RotationData& r,
   return quaternion_of<S>(turned);
 }
 
-/// Its angular velocity, in the axes of its vector [rad/s].
+/// Angular velocity of a followed rotation, in the axes of its vector [rad/s].
 template <class S>
 Vec3<S> spin_of(const System& s, const RotationData& r, const std::vector<BodyState<S>>& states) {
   if (r.joint < 0)
@@ -87,12 +87,12 @@ Vec3<S> spin_of(const System& s, const RotationData& r, const std::vector<BodySt
          (joint_geometry<S>(j, states).N * u.template tail<3>() - u.template segment<3>(3));
 }
 
-/// Coordinates of all motions near the start, then vectors of all rotations there: up to a full
-/// turn as the body was placed; between two bodies, or over a mean yaw, up to half a turn.
+/// Coordinates of all motions near the start, then vectors of all rotations there: for bodies up to
+/// a full turn, as placed; between two bodies, or over a mean yaw, up to half a turn.
 std::vector<double> start_turns(const System& system);
 
-/// Which rotations are followed: those of free bodies, and what laws see of them and between
-/// markers. To be called again after elements were added.
+/// Finds the rotations to follow: those of free bodies, those that laws read, and those between
+/// markers. Call it again after elements were added.
 void follow_rotations(System& system);
 
 } // namespace hydrodae::system

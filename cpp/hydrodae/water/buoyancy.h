@@ -8,8 +8,8 @@
 
 namespace hydrodae::water {
 
-/// Buoyancy of a body under water that no database covers: rho g V upwards at a point of the body.
-/// That of a sphere ends at the surface, z = 0.
+/// Buoyancy of a body in water without a database: rho g V upwards at a point of the body. The
+/// buoyancy of a sphere ends at the surface, z = 0.
 struct Buoyancy {
   static constexpr std::string_view type = "buoyancy";
   static constexpr bool buoyant = true;
@@ -18,7 +18,7 @@ struct Buoyancy {
   static constexpr element::Work work = element::Work::lent;
   std::string name;
   double lift = 0.0;   ///< rho g V [N]
-  double radius = 0.0; ///< of a sphere; 0: under water wherever it is [m]
+  double radius = 0.0; ///< radius of a sphere [m]; 0: always under water
 
   struct Law {
     double lift;
@@ -36,7 +36,7 @@ struct Buoyancy {
       j.setZero();
       j(2, 2) = lift * by_z;
     }
-    /// Of a sphere: zero at the surface, - lift z deep in the water.
+    /// Energy of a sphere: zero at the surface, - lift z deep in the water.
     double energy(const element::In<double>& in) const {
       const double z = in.x[2], d = 2.0 * sphere.radius;
       if (d == 0.0 || z < -sphere.radius)

@@ -12,8 +12,9 @@ namespace hydrodae::water {
 
 namespace {
 
-constexpr double slack = 1e-4; ///< by which headings may lie off the table (headings.h) [rad]
-constexpr double noise = 1e-5; ///< of the largest: what the symmetry of a body leaves in its tables
+constexpr double slack = 1e-4; ///< tolerance of headings beyond the table (headings.h) [rad]
+/// Asymmetry of tables of a symmetric body, as part of the largest value
+constexpr double noise = 1e-5;
 
 /// Memory for n numbers; allocates nothing after a first call.
 VectorX& functions_memory(Index n) {
@@ -30,7 +31,7 @@ template <class S> S* drifting_memory(Index n) {
   return memory.data();
 }
 
-/// f along the hydrodynamic axes as a load on the body. In mean axes R is all that it takes.
+/// Load on the body from f along the hydrodynamic axes; mean axes need only R.
 template <class S> Vec6<S> on_body(HydroAxes axes, const HydroBody& hb, const S* in, Vec6<S> f) {
   if (axes != HydroAxes::mean) {
     const Vec6<S> no_momentum = Vec6<S>::Zero();
@@ -64,7 +65,7 @@ void Excitation::turn(const std::vector<HydroBody>& bodies) {
     bodies_[k].wet = bodies[k];
 }
 
-/// b_m and w_m at the pose of the body.
+/// Factors b_m and w_m at the pose of the body.
 template <class S> void Excitation::factors(const Body& body, const S* in, Factors<S>& b) const {
   b.yaw[0] = b.pose[0] = S(1);
   if (body.yaw.count > 1) {
@@ -76,8 +77,7 @@ template <class S> void Excitation::factors(const Body& body, const S* in, Facto
                               b.pose_slopes.data());
 }
 
-/// What some terms make along the hydrodynamic axes; `f`: the functions of time, where these are
-/// fixed.
+/// Load of a set of terms along the hydrodynamic axes; `f`: functions of time, if fixed.
 template <class S>
 Vec6<S> Excitation::force(double t, const Body& body, const Terms& terms, const S* in,
                           const Factors<S>& b, const double* f) const {
@@ -122,7 +122,8 @@ void Excitation::evaluate(double t, const Dual* in, const double*, Dual* out) co
   loads(t, in, out);
 }
 
-/// d load / d place of a body whose waves move with it, by x and y, along the hydrodynamic axes.
+/// Derivative of the load by the place (x, y) of a body whose waves move with it, along the
+/// hydrodynamic axes.
 Eigen::Matrix<double, 6, 2> Excitation::by_place(double t, const Body& body, const double* in,
                                                  const Factors<double>& b) const {
   const Index n = body.moving.count();
@@ -249,7 +250,7 @@ element::WavesFelt Excitation::waves() const {
   for (const Body& body : bodies_) {
     body.yaw.values(body.wet.cos_yaw, body.wet.sin_yaw, b.yaw);
     b.pose[0] = 1.0;
-    if (body.poses.weights.size() > 0) // in the reference pose
+    if (body.poses.weights.size() > 0) // weights in the reference pose
       body.poses.weights.values(0.0, b.pose.data(), b.pose_slopes.data());
     Eigen::MatrixXcd load = Eigen::MatrixXcd::Zero(6, C.cols());
     for (const Terms* terms : {&body.moving, &body.still})
@@ -290,8 +291,8 @@ std::shared_ptr<const element::Elements> Excitation::calm() const {
   return out;
 }
 
-/// Least amplitude of each function that is no noise of the tables: by the largest force on the
-/// body and, of moments, its length or the largest moment.
+/// Least amplitude of each function that is above the noise of the tables: relative to the largest
+/// force on the body; for moments, to that times its length, or to the largest moment.
 VectorX Excitation::least(const VectorX& largest) const {
   VectorX out = VectorX::Zero(largest.size());
   for (const Body& body : bodies_) {
@@ -313,7 +314,7 @@ std::shared_ptr<const element::Elements>
 Excitation::stirred(const std::function<double()>& draw) const {
   auto out = std::make_shared<Excitation>(*this);
   const auto stir = [&](const auto& given, auto& stirred) {
-    if (given.empty() || given.components() == 0) // waves of no height
+    if (given.empty() || given.components() == 0) // waves without height
       return;
     VectorX theta(given.components());
     for (double& angle : theta)

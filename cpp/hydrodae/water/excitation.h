@@ -1,13 +1,13 @@
 #pragma once
-/// Wave excitation of all hydrodynamic bodies, by the tables of the database.
+/// Wave excitation of all hydrodynamic bodies, from the tables of the database.
 ///
 ///   load = L sum_m b_m(psi) w_m(s) f_m(t)      along the hydrodynamic axes of each body
 ///                                              (hydro_axes.h)
-///
-/// f_m are functions of time; or, where the phase of the waves moves with the bodies, of time and
-/// the horizontal displacement of each body as well. b_m are functions of the yaw of the body
-/// (yaw_functions.h): in axes that follow it, waves act with the force of their heading relative to
-/// the body. In the others b is 1 alone. w_m are the weights of tables for several poses s
+/// f_m are functions of time; if the phase of the waves moves with the bodies, they depend on the
+/// horizontal displacement of each body, too. b_m are functions of the body's yaw
+/// (yaw_functions.h): in axes that follow the yaw, waves act with the force of their heading
+/// relative to the body; in other axes b is 1. w_m are weights of tables for several poses s
+/// (pose_table.h); with one table w is 1.
 /// (pose_table.h); of a body with one table w is 1.
 
 #include "hydrodae/element/elements.h"
@@ -21,12 +21,12 @@ namespace hydrodae::water {
 
 class Excitation final : public element::Elements {
 public:
-  /// A function of time that acts along a coordinate (0..5) as often as b_m, and the weight of its
-  /// pose, say.
+  /// Function of time that acts along a coordinate (0..5) with the factor b_m and the weight of its
+  /// pose.
   struct Term {
     int coordinate = 0, m = 0, pose = 0;
   };
-  /// Successive functions of time, from `first` on.
+  /// Successive functions of time, beginning with `first`.
   struct Terms {
     Index first = 0;
     std::vector<Term> list;
@@ -36,21 +36,21 @@ public:
     std::string name;
     HydroBody wet;
     Vector3 reference = Vector3::Zero(); ///< centre of gravity in the reference pose [m]
-    double length = 1.0;                 ///< between noise of moments and that of forces [m]
+    double length = 1.0;                 ///< ratio of the noise of moments to that of forces [m]
     YawFunctions yaw;
     PoseAxis poses;
-    Terms moving;        ///< loads along the coordinates that move
-    Terms still;         ///< along the others, which are reported
-    Terms froude_krylov; ///< the Froude-Krylov part of all; empty where only the sum is known
+    Terms moving;        ///< terms of loads along coordinates that move
+    Terms still;         ///< terms of loads along fixed coordinates, for reports
+    Terms froude_krylov; ///< Froude-Krylov part of all terms; empty if only the sum is known
   };
 
-  /// The functions of time: `moving` of all bodies, the other terms, last the elevation at the
+  /// Functions of time: `moving` of all bodies, then the other terms, last the elevation at the
   /// origin [m].
   Excitation(HydroAxes axes, std::vector<Body> bodies, bool split);
   void set(sea::Signals functions) { fixed_ = std::move(functions); }
   void set(sea::DriftingSignals functions) { drifting_ = std::move(functions); }
 
-  /// Takes the axes of the bodies, as they are turned now.
+  /// Takes the present axes of the bodies.
   void turn(const std::vector<HydroBody>& bodies);
 
   void evaluate(double t, const double* in, const double*, double* out) const override;
@@ -58,7 +58,7 @@ public:
   void jacobian(double t, const double* in, const double*, double* jacobian) const override;
   void energy(const double*, const double*, double* joules) const override;
   void observe(double, const double*, const double*, const double*, double*) const override {}
-  /// Throws SolverError where the yaw of a body leaves what the headings of the database cover.
+  /// Throws SolverError if the yaw of a body leaves the headings of the database.
   void report(double t, const double* in, const double*, double* loads) const override;
   bool lost_at_rest(std::size_t) const override { return false; }
   element::WavesFelt waves() const override;
@@ -70,7 +70,7 @@ public:
 
 private:
   template <class S> void loads(double t, const S* in, S* out) const;
-  /// What the terms of a body are multiplied by.
+  /// Factors of the terms of a body.
   template <class S> struct Factors {
     YawFunctions::Values<S> yaw;
     std::array<S, PoseAxis::most> pose, pose_slopes;
@@ -90,8 +90,8 @@ private:
 
   HydroAxes axes_;
   std::vector<Body> bodies_;
-  Index n_moving_ = 0; ///< functions of time that load coordinates that move
-  sea::Signals fixed_; ///< one of the two is empty; both: still water
+  Index n_moving_ = 0; ///< number of functions of time on coordinates that move
+  sea::Signals fixed_; ///< fixed signals; one of the two is empty; both empty: still water
   sea::DriftingSignals drifting_;
 };
 

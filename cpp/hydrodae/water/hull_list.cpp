@@ -12,7 +12,7 @@ namespace {
 
 hull::Pose pose_of(const element::BodyState<double>& b) { return {b.r, b.R}; }
 
-/// World force and body-axes moment.
+/// Load as world force and body-axes moment.
 Vector6 tangent_load(const Matrix3& R, const Vector6& wrench) {
   Vector6 load;
   load << wrench.head<3>(), R.transpose() * wrench.tail<3>();
@@ -32,7 +32,7 @@ Matrix6 tangent_gradient(const Matrix3& R, const Vector6& load, const Matrix6& b
 
 } // namespace
 
-/// A scratch for the time of one evaluation.
+/// Scratch borrowed for one evaluation.
 class HullList::Borrowed {
 public:
   explicit Borrowed(const Body& body) : pool_(*body.pool) {
@@ -98,7 +98,7 @@ hull::Loads HullList::loads(const Body& body, double t, const hull::Pose& pose,
                     scratch->pose.position == pose.position &&
                     scratch->pose.rotation == pose.rotation;
   if (!same) {
-    scratch->known = false; // where the next line throws
+    scratch->known = false; // for the case that the next line throws
     scratch->loads = hull::loads(*body.mesh, body.field, pose, now, scratch->work);
     scratch->pose = pose;
     scratch->instant = now;
@@ -107,8 +107,8 @@ hull::Loads HullList::loads(const Body& body, double t, const hull::Pose& pose,
   return scratch->loads;
 }
 
-/// -rho g integral z dV over the displaced volume, by Gauss's theorem over the wet surface; exact,
-/// since z^2 is of degree 2.
+/// Potential -rho g integral z dV over the displaced volume, by Gauss's theorem over the wet
+/// surface; exact, because z^2 is of degree 2.
 double HullList::potential(const Body& body, const hull::Pose& pose) const {
   if (!waves_.empty())
     return 0.0;
@@ -151,7 +151,7 @@ void HullList::evaluate(double t, const Dual* in, const double*, Dual* out) cons
       Matrix3 dR;
       for (Index k = 0; k < 9; ++k)
         dR(k) = d.R(k).b;
-      const Matrix3 turn = b.R.transpose() * dR; // [phi] of body axes
+      const Matrix3 turn = b.R.transpose() * dR; // skew matrix [phi] of body axes
       change << d.r[0].b, d.r[1].b, d.r[2].b, turn(2, 1), turn(0, 2), turn(1, 0);
       change = tangent_gradient(b.R, load, by_pose) * change;
     }

@@ -1,6 +1,6 @@
 #pragma once
-/// Loads of the water's pressure on the wetted part of meshes, at each instant: hydrostatics, and
-/// with waves the Froude-Krylov load (hull/loads.h).
+/// Water pressure on the wetted part of meshes at each instant: hydrostatics, and with waves the
+/// Froude-Krylov load (hull/loads.h).
 
 #include <memory>
 #include <mutex>
@@ -12,21 +12,21 @@
 
 namespace hydrodae::water {
 
-/// Bodies with meshes in still water or in the same waves; their laws see the bodies as
-/// Port::in_water does, by the pose alone. Evaluations allocate nothing once each thread that works
-/// at the same time has a workspace; for several threads at once.
+/// Bodies with meshes in still water or in the same waves; inputs are those of Port::in_water, of
+/// which only the pose is used. Evaluations allocate nothing once each thread has a workspace.
+/// Thread-safe.
 ///
-/// In still water the loads have a potential, zero in the reference pose. In waves they give and
-/// take energy as the waves please.
+/// In still water the loads have a potential, zero in the reference pose. In waves they exchange
+/// energy with the body.
 class HullList final : public element::Elements {
 public:
   /// @param water      density, gravity, depth, and the pressure above z = 0
-  /// @param waves      none: still water
-  /// @param ramp_time  over which the waves grow [s]
+  /// @param waves      empty: still water
+  /// @param ramp_time  duration of the growth of the waves [s]
   HullList(const hull::Water& water, std::vector<hull::Wave> waves, double ramp_time);
 
   /// @param reference  centre of gravity, the origin of the mesh, in the reference pose [m]
-  /// @param moves      its body can; else its load is reported only
+  /// @param moves      true: the body can move; false: its load is only reported
   void add(const std::string& name, std::shared_ptr<const hull::Mesh> mesh,
            const Vector3& reference, bool moves);
 
@@ -44,8 +44,8 @@ public:
   stirred(const std::function<double()>& draw) const override;
 
 private:
-  /// What an evaluation works with, and the last loads without a gradient: a sample asks for the
-  /// same ones several times.
+  /// Workspace of an evaluation, and the last loads without gradient, which a sample reads several
+  /// times.
   struct Scratch {
     hull::Workspace work;
     bool known = false;
@@ -53,7 +53,7 @@ private:
     hull::Instant instant;
     hull::Loads loads;
   };
-  /// Those that wait for their next use.
+  /// Unused scratches.
   struct Pool {
     std::mutex guard;
     std::vector<std::unique_ptr<Scratch>> idle;
@@ -65,7 +65,7 @@ private:
     bool moves;
     hull::WaveField field;
     std::shared_ptr<Pool> pool;
-    double energy_of_reference; ///< [J]
+    double energy_of_reference; ///< energy in the reference pose [J]
   };
   class Borrowed;
 

@@ -1,16 +1,15 @@
 #pragma once
-/// Axes in which added mass, radiation and excitation act on a body, and what these loads are
-/// there.
+/// Axes of added mass, radiation and excitation of a body, and the loads in them.
 ///
 /// In axes carried by the bodies U = (R^T v, w), and the fluid has the momentum P = A_inf U = (p,
-/// h). The fluid takes from a body the force d/dt(R p) + R y and the moment d/dt(R h) + v x R p +
-/// R y (Kirchhoff; Lamb, Hydrodynamics, art. 124). This conserves U.P/2 when the load y beside it
-/// is zero. In mean axes, which a constant yaw H turns, U = (H^T v, H^T R w) and the load is
-/// H (A_inf U' + y).
+/// h). The fluid takes from a body the force d/dt(R p) + R y and the moment d/dt(R h) + v x R p + R
+/// y (Kirchhoff; Lamb, Hydrodynamics, art. 124). U.P/2 is conserved if the additional load y is
+/// zero. In mean axes, turned by a constant yaw H, U = (H^T v, H^T R w), and the load is H (A_inf
+/// U' + y).
 ///
-/// In axes H that turn with the yaw psi of the body, U = (H^T v, H^T R w) = (V, W). The load is
-/// H (p' + W_z x p) and H (h' + W_z x h) + s e_z.(V x p + W x h), with W_z = psi' e_z, psi' = s.w.
-/// This too conserves U.P/2 when y = 0.
+/// In axes H that turn with the yaw psi of the body, U = (H^T v, H^T R w) = (V, W). The load is H
+/// (p' + W_z x p) and H (h' + W_z x h) + s e_z.(V x p + W x h), with W_z = psi' e_z, psi' = s.w.
+/// U.P/2 is conserved here, too, if y = 0.
 
 #include <algorithm>
 #include <array>
@@ -20,24 +19,24 @@
 
 namespace hydrodae::water {
 
-/// Axes in which added mass, radiation and excitation act: carried by each body, the earth axes
-/// turned by the mean yaw of each, or those that turn with the body's yaw alone.
+/// Axes of added mass, radiation and excitation: carried by each body; earth axes turned by the
+/// mean yaw of each body; or axes that turn only with the body's yaw.
 enum class HydroAxes { body, mean, yaw };
 
-/// A hydrodynamic body: where its six coordinates stand in the full and in the moving vectors, and
-/// its mean yaw, that of the start or equilibrium pose.
+/// Hydrodynamic body: places of its six coordinates in the full and in the moving vectors, and its
+/// mean yaw, that of the start or equilibrium pose.
 struct HydroBody {
   int body = 0;
-  int carrier = 0; ///< among the hydrodynamic bodies: of a mode the body that deforms, else itself
+  int carrier = 0; ///< index of the hydrodynamic body that deforms, for a mode; else its own
   double yaw = 0.0, cos_yaw = 1.0, sin_yaw = 0.0; ///< [rad], [-], [-]
   bool turned = false;                            ///< yaw != 0
-  std::array<int, 6> moving{}; ///< index into U of each of the six coordinates, -1: does not move
+  std::array<int, 6> moving{}; ///< index in U of each of the six coordinates; -1: fixed
   bool moves = false;
-  int table = -1; ///< in HydroData::tables, -1: its added mass does not depend on its pose
+  int table = -1; ///< index in HydroData::tables; -1: added mass does not depend on the pose
   int n_moving() const {
     return 6 - static_cast<int>(std::count(moving.begin(), moving.end(), -1));
   }
-  /// The six components of a body from those that move of all bodies, zero of the others.
+  /// Six components of a body from the moving ones of all bodies; fixed ones are zero.
   template <class S> Vec6<S> gather(const VecX<S>& moving_of_all) const {
     Vec6<S> out = Vec6<S>::Zero();
     for (int c = 0; c < 6; ++c)
@@ -50,9 +49,9 @@ struct HydroBody {
   }
 };
 
-/// Yaw of a body: that of its x axis seen from above.
+/// Yaw of a body: angle of its x axis seen from above.
 template <class S> struct Yaw {
-  Mat3<S> H; ///< turns the yawed axes into those of the world
+  Mat3<S> H; ///< rotation from the yawed axes to the world
   Vec3<S> s; ///< d psi = s . d phi, body axes
 };
 template <class S> Yaw<S> yaw(const element::BodyState<S>& state) {
@@ -65,10 +64,10 @@ template <class S> Yaw<S> yaw(const element::BodyState<S>& state) {
   return out;
 }
 
-/// e_z x a.
+/// Cross product e_z x a.
 template <class S> Vec3<S> across_up(const Vec3<S>& a) { return {-a[1], a[0], S(0)}; }
 
-/// H a of the force and moment a by the mean yaw H; `back`: H^T a.
+/// Rotates the force and moment a by the mean yaw: H a; `back`: H^T a.
 template <class S> void turn_by_mean_yaw(const HydroBody& hb, bool back, Vec6<S>& a) {
   const S c(hb.cos_yaw), d(back ? -hb.sin_yaw : hb.sin_yaw);
   for (int k : {0, 3}) {
@@ -95,7 +94,7 @@ Vec6<S> hydro_velocity(HydroAxes axes, const HydroBody& hb, const element::BodyS
   return U;
 }
 
-/// Their rates: (R^T v)' = R^T v' - w x R^T v.
+/// Accelerations of a body in the hydrodynamic axes: (R^T v)' = R^T v' - w x R^T v.
 template <class S>
 Vec6<S> hydro_acceleration(HydroAxes axes, const HydroBody& hb,
                            const element::BodyState<S>& state) {
@@ -118,8 +117,8 @@ Vec6<S> hydro_acceleration(HydroAxes axes, const HydroBody& hb,
   return a;
 }
 
-/// What the fluid takes from one body (world force, body-axes moment), given its six components of
-/// A_inf U' + C z (`rate`) and of A_inf U (`momentum`).
+/// Load that the fluid takes from one body (world force, body-axes moment), from its six components
+/// of A_inf U' + C z (`rate`) and of A_inf U (`momentum`).
 template <class S>
 Vec6<S> hydro_load(HydroAxes axes, const HydroBody& hb, const element::BodyState<S>& state,
                    const Vec6<S>& rate, const Vec6<S>& momentum) {

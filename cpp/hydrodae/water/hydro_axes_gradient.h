@@ -11,7 +11,7 @@ using Matrix63 = Eigen::Matrix<double, 6, 3>;
 /// dg = [g] dphi.
 struct YawGradient {
   Matrix3 H, s_phi;
-  Vector3 s, rate_phi; ///< rate_phi: of psi' = s.w
+  Vector3 s, rate_phi; ///< rate_phi: derivative of psi' = s.w
   double rate = 0.0;
 };
 inline YawGradient yaw_gradient(const element::BodyState<double>& b) {
@@ -27,14 +27,14 @@ inline YawGradient yaw_gradient(const element::BodyState<double>& b) {
   return d;
 }
 
-/// The turn by the mean yaw.
+/// Rotation by the mean yaw.
 inline Matrix3 mean_turn(const HydroBody& hb) {
   Matrix3 H = Matrix3::Identity();
   H.topLeftCorner<2, 2>() << hb.cos_yaw, -hb.sin_yaw, hb.sin_yaw, hb.cos_yaw;
   return H;
 }
 
-/// L: forces along the hydrodynamic axes as a load on the body; U = L^T u.
+/// Matrix L from forces along the hydrodynamic axes to the load on the body; U = L^T u.
 inline Matrix6 hydro_axes(HydroAxes axes, const HydroBody& hb,
                           const element::BodyState<double>& b) {
   Matrix6 L = Matrix6::Identity();
@@ -54,7 +54,8 @@ inline Matrix6 hydro_axes(HydroAxes axes, const HydroBody& hb,
   return L;
 }
 
-/// dU = U_phi dphi + U_v dv + U_w dw and dU' = a_phi dphi + a_v dv + a_w dw + a_acc d(v', w').
+/// Derivatives dU = U_phi dphi + U_v dv + U_w dw and dU' = a_phi dphi + a_v dv + a_w dw + a_acc
+/// d(v', w').
 struct HydroMotionGradient {
   Matrix63 U_phi = Matrix63::Zero(), U_v = Matrix63::Zero(), U_w = Matrix63::Zero();
   Matrix63 a_phi = Matrix63::Zero(), a_v = Matrix63::Zero(), a_w = Matrix63::Zero();
@@ -100,8 +101,8 @@ inline HydroMotionGradient hydro_motion_gradient(HydroAxes axes, const HydroBody
   return d;
 }
 
-/// load = L rate + Q momentum of `hydro_load`: L, Q, and the derivatives by the rotation of the
-/// body (body axes) and by its velocities (v, w), with rate and momentum held.
+/// Derivatives of the load L rate + Q momentum of `hydro_load`: L, Q, and those by the rotation
+/// (body axes) and velocities (v, w) of the body, with rate and momentum constant.
 struct HydroLoadGradient {
   Matrix6 L, Q = Matrix6::Zero(), by_velocity = Matrix6::Zero();
   Matrix63 by_rotation = Matrix63::Zero();

@@ -6,9 +6,9 @@ namespace hydrodae::water {
 
 namespace {
 
-/// f = beta / sin beta and df / dg_z, from the vertical g seen from the body. Near upright by the
-/// series f = sum t_k e^k, e = sin^2(beta / 2), t_k = t_(k-1) k / (k + 1/2): there e < 2.6e-3, so
-/// that the terms left out are below rounding.
+/// Tilt factor f = beta / sin beta and df / dg_z, from the vertical g in body axes. Near upright
+/// the series f = sum t_k e^k is used, e = sin^2(beta / 2), t_k = t_(k-1) k / (k + 1/2): there e <
+/// 2.6e-3, and the omitted terms are below rounding.
 template <class S> struct Tilt {
   S factor{1}, slope{0};
   explicit Tilt(const Vec3<S>& g) {
@@ -22,7 +22,7 @@ template <class S> struct Tilt {
       return;
     }
     const S e = square / (S(2) * (S(1) + g[2]));
-    S term(1); // t_k e^(k-1)
+    S term(1); // term t_k e^(k-1)
     for (int k = 1; k < 8; ++k) {
       term *= S(k / (k + 0.5));
       slope -= S(0.5 * k) * term;
@@ -56,7 +56,7 @@ void YawHydrostatics::add(const std::string& name, const element::LinearWrench& 
 template <class S> Vec6<S> YawHydrostatics::load(const Law& law, const S& z, const Vec3<S>& g) {
   const Tilt<S> tilt(g);
   const Vec3<S> by_x = law.stiffness.cast<S>() * coordinates<S>(tilt, z - S(law.height), g) -
-                       law.constant.cast<S>(); // dE/dx
+                       law.constant.cast<S>(); // derivative dE/dx
   const Vec3<S> by_g(-(tilt.factor * by_x[2]), tilt.factor * by_x[1],
                      tilt.slope * (by_x[1] * g[1] - by_x[2] * g[0]));
   Vec6<S> out;
@@ -87,7 +87,7 @@ void YawHydrostatics::jacobian(double, const double* in, const double*, double* 
     J.setZero();
     const element::BodyState<double> b = element::read_body(in);
     const Vector3 g = b.R.row(2).transpose();
-    const Matrix3 turn = skew<double>(g); // dg = g x dphi
+    const Matrix3 turn = skew<double>(g); // derivative dg = g x dphi
     for (int column = 2; column < 6; ++column) {
       Vec3<Dual> turned = g.cast<Dual>();
       if (column > 2)

@@ -7,8 +7,8 @@
 
 namespace hydrodae::water {
 
-/// Linear hydrostatics of a body, from the database: buoyancy and its stiffness about the pose of
-/// the database, turned with the mean yaw.
+/// Linear hydrostatics of a body from the database: buoyancy and its stiffness about the pose of
+/// the database, in axes turned by the mean yaw.
 struct Hydrostatics {
   static constexpr std::string_view type = "hydrostatic";
   static constexpr bool buoyant = true;
@@ -20,7 +20,7 @@ struct Hydrostatics {
   const element::LinearWrench& law() const { return wrench; }
 };
 
-/// The same for bodies at any yaw. Still water feels of a pose the height and the tilt alone:
+/// Linear hydrostatics of bodies at any yaw. Only height and tilt of a pose matter in still water:
 ///
 ///   E = 1/2 x.K x - W0.x,   x = (z - z_ref, tau_x, tau_y)
 ///
@@ -31,7 +31,7 @@ struct Hydrostatics {
 class YawHydrostatics final : public element::Elements {
 public:
   YawHydrostatics();
-  /// @param wrench  in the axes of the database; its rows of heave, roll and pitch count
+  /// @param wrench  load in the axes of the database; only heave, roll and pitch are used
   /// @param height  z_ref [m]
   void add(const std::string& name, const element::LinearWrench& wrench, double height);
 

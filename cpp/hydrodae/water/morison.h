@@ -12,14 +12,14 @@ namespace hydrodae::water {
 /// (Morison et al., Petroleum Trans. AIME 189 (1950) 149), by the motion of the undisturbed water.
 ///
 ///   point:   F = w [ 1/2 rho C_d A |u| u + rho V ((1 + C_a) a_f - C_a a_b) ]
-///   member:  the same with the parts of u, a_f, a_b across the axis, A = D dl, V = pi/4 D^2 dl for
+///   member:  as above with the parts of u, a_f, a_b across the axis, A = D dl, V = pi/4 D^2 dl for
 ///            each segment dl; along the axis 1/2 rho C_dt pi D dl |u_t| u_t and
-///            rho V C_at (a_f - a_b)_t. The pressure on its end faces is not in it.
+///            rho V C_at (a_f - a_b)_t; without the pressure on the end faces
 ///
-/// Inside a mesh that has the Froude-Krylov load of its body, C_a stands for 1 + C_a.
+/// Inside a mesh with the Froude-Krylov load of its body, C_a replaces 1 + C_a.
 ///
-/// u = u_fluid - v_body [m/s], w the wet part of the segment (see `wet_part`). There is no
-/// buoyancy: that belongs to the hydrostatics of the database.
+/// u = u_fluid - v_body [m/s]; w: wet part of the segment (see `wet_part`). Buoyancy is not
+/// included: it belongs to the hydrostatics of the database.
 struct Morison {
   static constexpr std::string_view doc =
       "Drag and inertia of the water on a point or on a slender member of a body (Morison).";
@@ -38,7 +38,7 @@ struct Morison {
   static Fields<Morison> fields();
 };
 
-/// One piece as the system evaluates it; a point has no axis (a zero vector).
+/// Segment for the evaluation; a point has no axis (a zero vector).
 struct MorisonSegment {
   double half_length = 0.0, radius = 0.0; ///< [m]; half_length 0: a point
   double drag = 0.0, drag_axial = 0.0;    ///< 1/2 rho C A across and along the axis [kg/m]
@@ -47,10 +47,10 @@ struct MorisonSegment {
   double mass_axial = 0.0;                ///< rho V C_at [kg]
 };
 
-/// How much of a segment is beneath the surface, by the height of its centre above it:
+/// Wet part of a segment, from the height of its centre above the surface:
 ///   w = x,   x = 1/2 - height/(2e) within [0, 1],   e^2 = (l t_z)^2 + r^2 (1 - t_z^2)
-/// where e is half the height of the segment, exact upright (so that the wet length is) and level;
-/// of a point w = x^2 (3 - 2x) with e = r, the wet part of a sphere.
+/// where e is half the height of the segment, exact for upright (then the wet length is, too) and
+/// level segments. For a point w = x^2 (3 - 2x) with e = r, the wet part of a sphere.
 template <class S>
 S wet_part(const MorisonSegment& m, const S& height, const S& axis_z, S* by_height = nullptr,
            S* by_axis_z = nullptr) {
@@ -68,8 +68,8 @@ S wet_part(const MorisonSegment& m, const S& height, const S& axis_z, S* by_heig
   return all ? S(1) : none ? S(0) : sphere ? x * x * (S(3) - S(2) * x) : x;
 }
 
-/// Force on a segment [N] without the wet part, world axes: axis t, velocity u of the water over
-/// the segment, accelerations a_f of the water and a_b of the segment.
+/// Force on a dry segment [N], without the wet part, world axes: axis t, velocity u of the water
+/// relative to the segment, accelerations a_f of the water and a_b of the segment.
 template <class S>
 Vec3<S> morison_force(const MorisonSegment& m, const Vec3<S>& t, const Vec3<S>& u,
                       const Vec3<S>& a_f, const Vec3<S>& a_b) {
@@ -84,7 +84,8 @@ Vec3<S> morison_force(const MorisonSegment& m, const Vec3<S>& t, const Vec3<S>& 
   return S(m.drag) * speed * u_n + (S(m.drag_axial) * abs(u_t) * u_t - c_t) * t + b;
 }
 
-/// Its derivatives, (3, 3) each. The drag |u| u has a continuous derivative, zero at u = 0.
+/// Derivatives of the force, (3, 3) each. The drag |u| u has a continuous derivative, zero at u =
+/// 0.
 struct MorisonGradient {
   Matrix3 by_axis, by_velocity, by_fluid, by_body;
 };

@@ -6,7 +6,7 @@ namespace hydrodae::water {
 
 namespace {
 
-/// Memory that grows to the most that a thread has asked for.
+/// Scratch memory of a thread, which grows to the largest size so far.
 template <class T> T* scratch(int n) {
   thread_local std::vector<T> memory;
   if (memory.size() < static_cast<std::size_t>(n))
@@ -14,7 +14,7 @@ template <class T> T* scratch(int n) {
   return memory.data();
 }
 
-/// The water at the segments of an element, into `fluid` (and `gradients`).
+/// Writes the water at the segments of an element into `fluid` (and `gradients`).
 template <class S>
 void morison_fluid(const sea::WaveField& water, const MorisonMember& m,
                    const element::BodyState<S>& body, double t, sea::FluidPoint<S>* fluid,
@@ -24,7 +24,7 @@ void morison_fluid(const sea::WaveField& water, const MorisonMember& m,
   sea::fluid_on_line<S>(water, t, first, step, m.segments, fluid, gradients);
 }
 
-/// World force [N] and body-axes moment about the centre of gravity [N m].
+/// Load of an element: world force [N] and body-axes moment about the centre of gravity [N m].
 template <class S>
 Vec6<S> morison_load(const sea::WaveField& water, const MorisonMember& m,
                      const element::BodyState<S>& body, double t, sea::FluidPoint<S>* fluid) {
@@ -50,18 +50,18 @@ Vec6<S> morison_load(const sea::WaveField& water, const MorisonMember& m,
   return load;
 }
 
-/// Derivatives of a load by the virtual displacement of its body, its velocities and accelerations.
+/// Derivatives of a load by virtual displacements, velocities and accelerations of its body.
 struct LoadGradient {
   Matrix6 by_displacement = Matrix6::Zero(), by_velocity = Matrix6::Zero(),
           by_acceleration = Matrix6::Zero();
 };
 
-/// One segment by the water: force F (3,) and dF by its velocity, acceleration and elevation.
+/// Gradient of one segment: force F (3,) and dF by its velocity, acceleration and elevation.
 struct SegmentGradient {
   Vector3 arm, force;
-  MorisonGradient dry; ///< without the wet part
+  MorisonGradient dry; ///< gradient without the wet part
   double wet = 0.0;
-  Vector3 by_height, by_axis_z; ///< of F through the wet part
+  Vector3 by_height, by_axis_z; ///< derivatives of F through the wet part
 };
 
 SegmentGradient segment_gradient(const MorisonMember& m, const element::BodyState<double>& b, int k,
@@ -82,7 +82,8 @@ SegmentGradient segment_gradient(const MorisonMember& m, const element::BodyStat
   return d;
 }
 
-// x = r + R s, v_b = v + R (w x s), a_b = v' + R c, c = w' x s + w x (w x s), t = R t_0:
+// Kinematics: x = r + R s, v_b = v + R (w x s), a_b = v' + R c, c = w' x s + w x (w x s), t = R
+// t_0:
 //   dx = dr - R [s] dphi,  dv_b = dv - R [w x s] dphi - R [s] dw,  dt = -R [t_0] dphi,
 //   da_b = dv' - R [c] dphi - R [s] dw' - R ([w x s] + [w][s]) dw.
 // Load (F, s x R^T F): d(R^T F) = R^T dF + [R^T F] dphi.

@@ -1,5 +1,5 @@
 #pragma once
-/// All Morison elements of a scene, in the water that they feel.
+/// Morison elements of a scene, and the water around them.
 
 #include "hydrodae/element/elements.h"
 #include "hydrodae/sea/kinematics.h"
@@ -7,19 +7,20 @@
 
 namespace hydrodae::water {
 
-/// Equal segments whose centres stand at equal steps on a straight line of a body.
+/// Equal segments at equal distances on a straight line of a body.
 struct MorisonMember {
   MorisonSegment law;
   int segments = 1;
-  Vector3 first = Vector3::Zero(); ///< centre of the first, from the centre of gravity, body axes
-  Vector3 step = Vector3::Zero();  ///< from centre to centre [m]
-  Vector3 axis = Vector3::Zero();  ///< body axes; zero: a point element
-  bool instantaneous = false;      ///< wet up to the elevation, else up to z = 0
-  bool moves = true;               ///< its body can; else its load is reported only
+  /// Centre of the first segment relative to the centre of gravity, body axes [m]
+  Vector3 first = Vector3::Zero();
+  Vector3 step = Vector3::Zero(); ///< vector from centre to centre [m]
+  Vector3 axis = Vector3::Zero(); ///< axis in body axes; zero: a point element
+  bool instantaneous = false;     ///< true: wet up to the elevation; false: up to z = 0
+  bool moves = true;              ///< true: the body can move; false: its load is only reported
 };
 
-/// The sum over the segments, each by the water at its centre. Allocates nothing after a first
-/// call; for several threads at once.
+/// Sum over the segments, each with the water at its centre. Allocates nothing after a first call;
+/// thread-safe.
 class MorisonList final : public element::Elements {
 public:
   explicit MorisonList(sea::WaveField sea);

@@ -1,8 +1,8 @@
 #pragma once
-/// Added mass and radiation of a body that change with one coordinate s of its pose, from tables
-/// for several poses.
+/// Added mass and radiation of a body that depend on one coordinate s of its pose, from tables for
+/// several poses.
 ///
-///   A(s) = sum_m w_m(s) A_m,   B(s) alike, C(s) z too where the memory is blended
+///   A(s) = sum_m w_m(s) A_m,   B(s) likewise, and C(s) z if the memory is blended
 ///
 /// The kinetic energy 1/2 U.A(s) U of the fluid takes from the body
 ///   d/dt (A(s) U) - 1/2 U.A'(s) U grad s
@@ -16,7 +16,7 @@
 
 namespace hydrodae::water {
 
-/// A coordinate of the pose with its gradient: ds = gradient . (dr, dphi), dr in world axes, the
+/// Coordinate of the pose with its gradient: ds = gradient . (dr, dphi), dr in world axes, the
 /// virtual rotation dphi in body axes.
 template <class S> struct PoseCoordinate {
   S value;
@@ -28,8 +28,8 @@ template <class S> struct PoseCoordinate {
 };
 
 /// Gradient of roll, pitch or yaw (component 3, 4, 5) by the virtual rotation of the body, from the
-/// vertical in its axes g = R^T e_z. Roll = atan2(g_y, g_z) and pitch = -asin(g_x) do not change
-/// with yaw, the angle of the body's x axis seen from above.
+/// vertical in body axes g = R^T e_z. Roll = atan2(g_y, g_z) and pitch = -asin(g_x) are independent
+/// of yaw, the angle of the body's x axis seen from above.
 template <class S> Vec3<S> turn_gradient(int component, const Vec3<S>& g) {
   using std::sqrt;
   const S square = g[1] * g[1] + g[2] * g[2];
@@ -42,8 +42,8 @@ template <class S> Vec3<S> turn_gradient(int component, const Vec3<S>& g) {
   return {S(0), g[1] / square, g[2] / square};
 }
 
-/// Of a component: 0..2 the displacement from `reference` along a world axis [m]; 3..5 roll, pitch,
-/// yaw [rad].
+/// Pose coordinate of a component: 0..2 displacement from `reference` along a world axis [m]; 3..5
+/// roll, pitch, yaw [rad].
 template <class S>
 PoseCoordinate<S> pose_coordinate(int component, double reference, const element::BodyState<S>& b) {
   using std::atan2;
@@ -66,7 +66,7 @@ PoseCoordinate<S> pose_coordinate(int component, double reference, const element
   return out;
 }
 
-/// d gradient / dphi, with dg = [g] dphi; zero of a displacement.
+/// Derivative of the gradient by phi, with dg = [g] dphi; zero for a displacement.
 inline Matrix3 pose_gradient_by_rotation(int component, const Matrix3& R) {
   Matrix3 out = Matrix3::Zero();
   if (component < 3)
@@ -82,29 +82,28 @@ inline Matrix3 pose_gradient_by_rotation(int component, const Matrix3& R) {
   return out;
 }
 
-/// What blends the tables of a body: functions of a coordinate of its pose.
+/// Weights of the tables of a body: functions of a coordinate of its pose.
 struct PoseAxis {
-  static constexpr std::size_t most = 100; ///< poses
-  int component = 0;                       ///< 0..5
-  double reference = 0.0;                  ///< of a displacement [m]
-  CardinalSplines weights;                 ///< without places: one table for all poses
+  static constexpr std::size_t most = 100; ///< largest number of poses
+  int component = 0;                       ///< component of the pose, 0..5
+  double reference = 0.0;                  ///< reference of a displacement [m]
+  CardinalSplines weights;                 ///< empty: one table for all poses
 
   template <class S> PoseCoordinate<S> at(const element::BodyState<S>& b) const {
     return pose_coordinate<S>(component, reference, b);
   }
 };
 
-/// The tables of one body. Rows are all six loads; columns of coordinates that do not move are
-/// zero.
+/// Tables of one body. Rows are all six loads; columns of fixed coordinates are zero.
 struct PoseTable {
   int hydro_body = 0;
   PoseAxis axis;
-  std::vector<Matrix6> added_mass; ///< of each pose
-  std::vector<Matrix6> damping;    ///< likewise; empty without damping
-  int first_weight = 0;            ///< in the weights of all tables
+  std::vector<Matrix6> added_mass; ///< added mass at each pose
+  std::vector<Matrix6> damping;    ///< damping at each pose; empty: no damping
+  int first_weight = 0;            ///< index in the weights of all tables
 };
 
-/// sum_m w_m M_m; zero of no matrices.
+/// Matrix sum_m w_m M_m; zero without matrices.
 inline Matrix6 blend(const std::vector<Matrix6>& tables, const double* weights) {
   Matrix6 out = Matrix6::Zero();
   for (const Matrix6& table : tables)
@@ -112,7 +111,7 @@ inline Matrix6 blend(const std::vector<Matrix6>& tables, const double* weights) 
   return out;
 }
 
-/// sum_m w_m M_m x.
+/// Vector sum_m w_m M_m x.
 template <class S>
 Vec6<S> blend(const std::vector<Matrix6>& tables, const S* weights, const Vec6<S>& x) {
   Vec6<S> out = Vec6<S>::Zero();

@@ -12,8 +12,8 @@ namespace hydrodae::water {
 ///
 ///   W = -C v - Q (v |v|)      v = [velocity; angular velocity] [m/s; rad/s], world axes
 ///
-/// v |v| is taken component by component. W holds force [N] and moment [N m]. The derivative is
-/// continuous, the second one jumps where a component changes sign.
+/// v |v| is taken component by component. W holds force [N] and moment [N m]. The first derivative
+/// is continuous; the second one jumps where a component changes sign.
 struct ViscousDamping {
   static constexpr std::string_view type = "viscous_damping";
   static constexpr element::Port port = element::Port::on_body;
@@ -27,7 +27,7 @@ struct ViscousDamping {
   Matrix6 linear = Matrix6::Zero();
   Matrix6 quadratic = Matrix6::Zero();
 
-  /// The law that the system evaluates.
+  /// Law with derived numbers.
   struct Law {
     Matrix6 linear, quadratic;
 

@@ -1,11 +1,10 @@
 #pragma once
-/// Functions of the yaw psi of a body, of which its excitation is made.
+/// Functions of the yaw psi of a body that its excitation is composed of.
 ///
-///   on the circle                    1, cos psi, sin psi, cos 2 psi, sin 2 psi ...
-///   for |psi - middle| <= half       Chebyshev polynomials T_m((psi - middle) / half), which
-///   beyond
-///                                    go on along their tangents, so that Newton's method converges
-///   where the yaw does not matter    1 alone, with an interval without end
+///   all headings                     1, cos psi, sin psi, cos 2 psi, sin 2 psi ...
+///   for |psi - middle| <= half       Chebyshev polynomials T_m((psi - middle) / half), continued
+///                                     along their tangents so that Newton's method converges
+///   if the yaw does not matter       1 alone, with an infinite interval
 ///
 /// All have a continuous derivative.
 
@@ -21,16 +20,16 @@ struct YawFunctions {
   static constexpr int most = 129;
   int count = 1;
   bool round = false;
-  double middle = 0.0, half = INFINITY; ///< of the interval [rad]
+  double middle = 0.0, half = INFINITY; ///< interval [rad]
 
   template <class S> using Values = std::array<S, most>;
 
-  /// By how much psi lies outside the interval [rad]; inside it less than 0.
+  /// Distance of psi from the interval [rad]; negative inside.
   double outside(double psi) const {
     return round ? -INFINITY : std::abs(std::remainder(psi - middle, 2.0 * pi)) - half;
   }
 
-  /// Of cos psi and sin psi: the functions (count,).
+  /// Values of the functions (count,), from cos psi and sin psi.
   template <class S> void values(const S& c, const S& s, Values<S>& out) const {
     out[0] = S(1);
     if (count == 1)
@@ -61,7 +60,7 @@ struct YawFunctions {
       out[index(m)] = S(2) * x * out[index(m - 1)] - out[index(m - 2)];
   }
 
-  /// Their derivatives by psi [1/rad].
+  /// Derivatives of the functions by psi [1/rad].
   void slopes(double c, double s, Values<double>& out) const {
     Values<Dual> d;
     values(Dual(c, -s), Dual(s, c), d);
