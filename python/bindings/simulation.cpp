@@ -198,7 +198,7 @@ void bind_simulation(py::module_& module) {
       "(negative: the\nend of the ramp), whether its turning points are wanted, and the frequency "
       "[Hz] of a Fourier integral\n(negative: none).\n\n"
       "Returns for each scene the attributes that its results file would have, with one dict a "
-      "signal under\n\"measured\", or the reason (a text) why it has to be run by itself.");
+      "signal under\n\"measured\". Where a scene has to be run by itself, the reason as text.");
   module.def(
       "simulate", &run, py::arg("scene"), py::arg("output"), py::arg("progress"), py::arg("drives"),
       py::arg("forces") = Functions{}, py::arg("controllers") = Functions{},

@@ -136,7 +136,7 @@ def test_hundred_hours_of_gaussian_seas_lie_in_the_interval_of_rayleigh() -> Non
         parts = random.standard_normal((2, len(spectrum)))
         x = np.fft.irfft(np.sqrt(spectrum) * (parts[0] + 1j * parts[1]) * length / 2.0, length)
         x = x[: round(100.0 * 3600.0 / STEP)]
-        record = Record(STEP * np.arange(len(x)), x)
+        record = Record(STEP * np.arange(len(x), dtype=float), x)
         k = int(np.argmax(x))
         (top,) = block_maxima([Record(record.time[k - 3 : k + 4], x[k - 3 : k + 4])], 6 * STEP)
         inside += low <= top <= high
@@ -148,7 +148,7 @@ def test_hundred_hours_of_gaussian_seas_lie_in_the_interval_of_rayleigh() -> Non
 def test_fits_of_gaussian_seas_meet_rayleigh() -> None:
     """Level of 3 h from 12 records of 20 min: within the interval of each distribution."""
     seas = gaussian_seas(3.3, 150, 12)
-    records = [Record(STEP * np.arange(len(x)), x) for x in seas]
+    records = [Record(STEP * np.arange(len(x), dtype=float), x) for x in seas]
     frequency = np.linspace(0.02, 1.0, 4000)
     sea = Narrow.of(2.0 * np.pi * frequency, jonswap(frequency, 3.3))
     truth = largest(Narrow(1.0, sea.rate), 3.0, 1.0 - np.exp(-1.0))

@@ -17,7 +17,7 @@ import hydrodae
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.second_order import SecondOrderTable
 from hydrodae.hdb.relations.dispersion import wavenumber
-from hydrodae.support.arrays import Array
+from hydrodae.support.arrays import Array, Complex
 
 #: (frequency [rad/s], amplitude [m], phase [rad])
 WAVES = [(0.8, 1.0, 0.3), (0.85, 0.8, 1.7), (0.95, 0.6, -2.0), (1.1, 0.5, 0.9)]
@@ -29,7 +29,7 @@ def made_up() -> SecondOrderTable:
     """Differences of surge, heave and pitch: Hermitian, the drift along the waves."""
     draw = np.random.default_rng(3)
     raw = draw.normal(size=(6, 6, 1, 3)) + 1j * draw.normal(size=(6, 6, 1, 3))
-    values = 1e3 * (raw + raw.swapaxes(0, 1).conj())
+    values: Complex = 1e3 * (raw + raw.swapaxes(0, 1).conj())
     i = np.arange(6)
     values[i, i] = 1e3 * (2.0 + np.abs(values[i, i].real) / 1e3)
     labels = ("float.surge", "float.heave", "float.pitch")

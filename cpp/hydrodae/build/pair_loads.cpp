@@ -96,7 +96,7 @@ PairTable::PairTable(const hydro::Database& db, const hydro::SecondOrderTable& t
                   "i of two equal waves of " + number_text(table.omega[i]) + " rad/s on " +
                   table
                       .coordinates[static_cast<std::size_t>(column_[static_cast<std::size_t>(c)])] +
-                  ": a mean is real; import it anew from its source");
+                  ": a mean is real; import it again from its source");
     }
   }
 }

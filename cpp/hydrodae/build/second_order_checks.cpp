@@ -40,7 +40,7 @@ std::vector<Load> find_loads(const model::Scene& scene) {
       throw ModelError(second_order_key, "loads = [" + in_quotes(word) + "] needs a table of " +
                                              (pairs ? word + "s of two waves" : "the mean drift") +
                                              ", and " + db.path +
-                                             " has none; hydrodae hdb import writes "
+                                             " lacks it; hydrodae hdb import writes "
                                              "it from the files of its source (docs/databases.md)");
     out.push_back({word, table});
   }

@@ -21,7 +21,7 @@ public:
   bool empty() const { return records_.empty(); }
   /// Is a turning point asked for at this time, so that steps need their inner stages?
   bool looks_inside(double t) const;
-  /// The first time after t that a step has to end at [s]; `end` where there is none.
+  /// The first time after t that a step has to end at [s]; `end` where no step has to.
   double next_stop(double t) const;
 
   /// Takes the values of a stage, or of the end (12), from the last `accelerations`.

@@ -227,7 +227,7 @@ hydro::SecondOrderTable read_second_order(const Input& file, const std::string& 
                                           const std::set<std::string>& coordinates) {
   const std::string group = "/second_order/" + kind;
   if (kind != "mean" && kind != "difference" && kind != "sum")
-    file.refuse(group, "is none of mean, difference and sum");
+    file.refuse(group, "expected mean, difference or sum");
   hydro::SecondOrderTable table;
   table.kind = kind;
   table.coordinates = file.labels(group + "/coordinates");

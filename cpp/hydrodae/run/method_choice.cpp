@@ -173,7 +173,7 @@ void MethodChoice::accept(double h, bool own, double operations) {
 
 bool MethodChoice::weighs() const { return state_.steps > weighed && rival() < candidates_.size(); }
 
-/// The reason to leave the method of a trial, if it was dearer.
+/// The reason to leave the method of a trial, if it was more expensive.
 std::optional<std::string> MethodChoice::judge_trial(double cost) {
   if (++state_.trial <= 2) // the first window holds steps that still grow
     return std::nullopt;

@@ -37,7 +37,8 @@ struct MethodOrder {
 /// - Stiff is what is 50 times as fast as the motion: an explicit step, about 6 over the fastest
 ///   rate, is then shorter than a tenth of a radian of the motion, and one of radau takes less.
 ///   There explicit_rk also spends energy on what hardly moves. After radau comes ida only.
-/// - A start does not tell all: memory of waves bounds the steps of explicit_rk, and lines that
+/// - The start does not show everything: the memory of waves bounds the steps of explicit_rk, and
+/// lines that
 ///   snap taut those of radau. In both cases above the two are weighed as the run goes on.
 /// - What a scene calls at every evaluation (Python, the nearest point of a path) counts more than
 ///   the algebra: radau evaluates half as often as explicit_rk, or less.

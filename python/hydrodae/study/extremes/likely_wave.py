@@ -127,7 +127,8 @@ class LikelyWave:
         """Largest of sign x elevation, by the parabola through the three highest samples."""
         step = 2.0 * math.pi / float(self.waves[:, 0].max()) / SAMPLES
         count = max(1, math.ceil(PERIODS * self.narrow.period / step))
-        x = sign * self.elevation(self.time + step * np.arange(-count, count + 1))
+        time = self.time + step * np.arange(-count, count + 1, dtype=float)
+        x = sign * self.elevation(time)
         k = int(np.clip(np.argmax(x), 1, len(x) - 2))
         before, middle, after = x[k - 1 : k + 2]
         curvature = before - 2.0 * middle + after

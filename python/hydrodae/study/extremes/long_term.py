@@ -258,14 +258,16 @@ def runs_long_term(
     seconds = table.hours * HOUR / found.seconds
     fitted = np.array([[*fit_gumbel(x)] for x in samples], dtype=float)
 
-    def level_of(loc: Array, scale: Array, n: float) -> float:
+    def level_of(gumbel: Array, n: float) -> float:
+        loc, scale = gumbel.T
+
         def crossings(x: float) -> float:
             return float(np.sum(seconds * np.exp(-np.clip((x - loc) / scale, -500.0, 500.0))))
 
         top = float((loc + 10.0 * scale).max())
         return _level(crossings, 1.0 / n, float(loc.min()), top)
 
-    levels = np.array([level_of(*fitted.T, n) for n in wanted])
+    levels = np.array([level_of(fitted, n) for n in wanted])
     generator = np.random.default_rng(1)
     drawn = np.empty((copies, len(samples), 2))
     for count in kinds:
@@ -275,12 +277,12 @@ def runs_long_term(
         drawn[:, mine] = np.stack([fitted[mine, 0] - scales * loc, scales], axis=-1)
     copied = np.empty((copies, len(wanted)))
     for k in range(copies):
-        copied[k] = [level_of(*drawn[k].T, n) for n in wanted]
+        copied[k] = [level_of(drawn[k], n) for n in wanted]
         if progress is not None and k % 20 == 19:
             progress(k + 1, copies)
     intervals = np.quantile(copied, [0.025, 0.975], axis=0).T
     ranges = np.array(
-        [[level_of(*fitted.T, n / -math.log(p)) for p in (0.025, 0.975)] for n in wanted]
+        [[level_of(fitted, n / -math.log(p)) for p in (0.025, 0.975)] for n in wanted]
     )
     rate = seconds * np.exp(-(levels[int(np.argmax(wanted))] - fitted[:, 0]) / fitted[:, 1])
     least = found.sign < 0.0

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.results.post import turning_points
@@ -33,7 +34,7 @@ class Record:
         """Duration [s]."""
         return float(self.time[-1] - self.time[0]) if len(self.time) else 0.0
 
-    def crests(self) -> tuple[Array, Array]:
+    def crests(self) -> tuple[NDArray[np.intp], Array]:
         """Numbers of the waves and the highest maximum of each, between upward crossings."""
         x = self.values - self.values.mean()
         up = self.time[1:][(x[:-1] < 0.0) & (x[1:] >= 0.0)]
@@ -41,9 +42,9 @@ class Record:
         number = np.searchsorted(up, time, side="right")
         inside = (number > 0) & (number < len(up))
         if not inside.any():
-            return np.empty(0, dtype=int), np.empty(0)
+            return np.empty(0, dtype=np.intp), np.empty(0)
         waves, first = np.unique(number[inside], return_index=True)
-        return waves, np.maximum.reduceat(extrema[inside], first)
+        return waves, np.asarray(np.maximum.reduceat(extrema[inside], first), dtype=float)
 
 
 def block_maxima(records: Sequence[Record], block: float) -> Array:

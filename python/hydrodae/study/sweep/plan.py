@@ -23,8 +23,10 @@ from hydrodae.study.sweep.rungs import DEFAULT, check_rungs
 
 #: Key of a point that says by which model of the motion it is run.
 RUNG = "rung"
-TABLES = ("case", "rungs", "grid", "list", "latin_hypercube", "table", "over", "result", "scatter")
-TABLES += KEYS
+TABLES: tuple[str, ...] = (
+    *("case", "rungs", "grid", "list", "latin_hypercube", "table", "over", "result", "scatter"),
+    *KEYS,
+)
 
 
 @dataclass(frozen=True)
