@@ -29,7 +29,7 @@ def made_up() -> SecondOrderTable:
     """Differences of surge, heave and pitch: Hermitian, the drift along the waves."""
     draw = np.random.default_rng(3)
     raw = draw.normal(size=(6, 6, 1, 3)) + 1j * draw.normal(size=(6, 6, 1, 3))
-    values: Complex = 1e3 * (raw + raw.swapaxes(0, 1).conj())
+    values: Complex = np.asarray(1e3 * (raw + raw.swapaxes(0, 1).conj()), dtype=complex)
     i = np.arange(6)
     values[i, i] = 1e3 * (2.0 + np.abs(values[i, i].real) / 1e3)
     labels = ("float.surge", "float.heave", "float.pitch")
