@@ -108,92 +108,99 @@ TEST_CASE("where no method is left, the error tells of all") {
                 "  worst equations");
 }
 
-TEST_CASE("many steps in a row that are short against the motion call for another method") {
-  MethodChoice choice = chosen();
-  for (int k = 0; k < 39; ++k)
-    choice.accept(1e-3, 10.0, true, 0.0);
-  CHECK_FALSE(choice.labours(3.0));
-  choice.accept(1e-9, 10.0, false, 0.0); // cut short: no evidence
-  CHECK_FALSE(choice.labours(3.0));
-  choice.accept(1e-3, 10.0, true, 0.0);
-  CHECK(choice.labours(3.0));
-  choice.next(*choice.labours(3.0));
-  CHECK(in_words(choice) ==
-        "auto: explicit_rk (nothing is stiff), radau from t = 3 s because 40 steps of explicit_rk "
-        "in a row were shorter than 0.02 rad of the motion");
-  CHECK_FALSE(choice.labours(3.0));
-  choice = chosen();
-  for (int k = 0; k < 200; ++k)
-    choice.accept(k % 39 == 38 ? 0.1 : 1e-3, 10.0, true, 0.0); // now and then a long one
-  CHECK_FALSE(choice.labours(3.0));
+namespace {
+
+constexpr double of_step = 1e3; // operations of a step of explicit_rk
+
+/// A choice with the operations of a run so far.
+struct Run {
+  MethodChoice choice;
+  double operations = 0.0;
+
+  explicit Run(MethodOrder order) : choice(std::move(order)) {}
+
+  /// Eleven steps, which are weighed; fastest rate of the equations [1/s].
+  bool changes(double h, double each, double fastest = 100.0, bool own = true) {
+    for (int k = 0; k < 11; ++k)
+      choice.accept(h, own, operations += each);
+    REQUIRE(choice.weighs());
+    const auto change = choice.weigh(2.0, of_step, [&] { return fastest; });
+    if (change)
+      choice.next(*change);
+    return change.has_value();
+  }
+};
+
+Run stiff() { return Run({{"radau", "ida"}, "it is stiff", true}); }
+Run plain_run() { return Run({explicit_first, "nothing is stiff", true}); }
+
+} // namespace
+
+TEST_CASE("explicit_rk is tried where radau needs more than 1.5 times its operations") {
+  Run run = stiff();
+  run.choice.accept(0.01, true, 1.0);
+  CHECK_FALSE(run.choice.weighs()); // eleven steps bound ten
+  run = stiff();
+  CHECK_FALSE(run.changes(0.01, 1.4 * of_step));
+  run = stiff();
+  CHECK_FALSE(run.changes(0.01, 5.0 * of_step, 2000.0)); // its steps would be 0.0025 s long
+  run = stiff();
+  CHECK(run.changes(0.01, 5.0 * of_step));
+  CHECK(in_words(run.choice) ==
+        "auto: radau (it is stiff), explicit_rk from t = 2 s because 10 steps of "
+        "radau took 5 times the operations that explicit_rk needs");
+  stop(run.choice, 5.0, "no step"); // in the trial
+  CHECK(run.choice.method() == "radau");
+  CHECK_FALSE(run.changes(0.01, 50.0 * of_step)); // explicit_rk is given up
+  stop(run.choice, 6.0, "no step");
+  CHECK(run.choice.method() == "ida");
 }
 
-TEST_CASE("explicit_rk takes turns where it needs less than half of the operations") {
-  const auto make_steps = [](MethodChoice& choice, int n, double each) {
-    double operations = 0.0;
-    for (int k = 0; k < n; ++k)
-      choice.accept(0.01, 1.0, true, operations += each);
-  };
-  const auto fastest = [] { return 100.0; }; // stable up to steps of 0.05 s
-  const double of_step = 1e3;
-  MethodChoice choice(MethodOrder{{"radau", "ida"}, "it is stiff", true});
-  const auto weigh = [&](double t) {
-    const std::optional<MethodChange> change = choice.weigh(t, of_step, fastest);
-    REQUIRE(change);
-    choice.next(*change);
-  };
-  make_steps(choice, 10, 5e3);
-  CHECK_FALSE(choice.weighs());
-  make_steps(choice, 1, 5e3);
-  CHECK(choice.weighs());
-  choice = MethodChoice(MethodOrder{{"radau", "ida"}, "it is stiff", true});
-  make_steps(choice, 11, 1.9e3);
-  CHECK_FALSE(choice.weigh(1.0, of_step, fastest)); // 1.9 times as many
-  make_steps(choice, 11, 5e3);
-  CHECK(choice.weighs());
-  CHECK_FALSE(
-      choice.weigh(1.0, of_step, [] { return 2000.0; })); // its steps would be 0.0025 s long
-  make_steps(choice, 11, 5e3);
-  weigh(1.0);
-  CHECK(in_words(choice) ==
-        "auto: radau (it is stiff), explicit_rk from t = 1 s because 10 steps of "
-        "radau took 5 times the operations that explicit_rk needs");
-  CHECK(choice.method() == "explicit_rk");
-  const auto turn = [&] {
-    int steps = 0;
-    for (; !choice.returns(2.0); ++steps)
-      choice.accept(1e-9, 1.0, true, 0.0);
-    CHECK_FALSE(choice.labours(3.0));
-    const MethodChange change = *choice.returns(2.0);
-    CHECK(change.reason ==
-          "explicit_rk has made the " + std::to_string(steps) + " steps of its turn");
-    CHECK(change.time == 2.0);
-    choice.next(change);
-    CHECK(choice.method() == "radau");
-    return steps;
-  };
-  CHECK(turn() == 500); // ten times 10 steps of 5
-  make_steps(choice, 11, 5e3);
-  weigh(3.0);
-  CHECK(turn() == 1000); // twice as long, as radau did no better at once
-  make_steps(choice, 11, 1e3);
-  CHECK_FALSE(choice.weigh(1.0, of_step, fastest));
-  make_steps(choice, 11, 5e3);
-  weigh(4.0);
-  CHECK(turn() == 500);
-  stop(choice, 5.0, "no step");
-  CHECK(choice.method() == "ida");
+TEST_CASE("radau is tried where something else than its error bounds the steps of explicit_rk") {
+  Run run = plain_run();
+  CHECK_FALSE(run.changes(0.03, of_step)); // 3 over the fastest rate
+  run = plain_run();
+  CHECK(run.changes(0.045, of_step)); // near the limit of stability
+  CHECK(run.choice.method() == "radau");
+  run = plain_run();
+  CHECK(run.changes(0.001, of_step, 100.0, false)); // instants of the scene
+  run = Run({explicit_first, "nothing is stiff"});
+  for (int k = 0; k < 20; ++k)
+    run.choice.accept(0.045, true, 1e3 * k);
+  CHECK_FALSE(run.choice.weighs()); // a choice that does not weigh
+}
 
-  MethodChoice other(MethodOrder{{"radau", "ida"}, "it is stiff", true});
-  other.set(choice.state());
-  CHECK(in_words(other) == in_words(choice));
-  CHECK(other.method() == "ida");
+TEST_CASE("the method of a trial stays where it costs less, and returns where it costs more") {
+  Run run = plain_run();
+  REQUIRE(run.changes(0.045, of_step));
+  CHECK_FALSE(run.changes(0.1, 9.0 * of_step)); // its first steps do not count
+  CHECK_FALSE(run.changes(0.45, 2.0 * of_step));
+  CHECK(run.choice.method() == "radau");
+  run = plain_run();
+  REQUIRE(run.changes(0.045, of_step));
+  CHECK_FALSE(run.changes(0.045, 4.0 * of_step));
+  CHECK(run.changes(0.045, 4.0 * of_step));
+  CHECK(run.choice.method() == "explicit_rk");
+  // The next trials wait for ten, then for twenty times the operations of one: 22 steps of 4.
+  const auto windows = [&] {
+    int n = 1;
+    while (!run.changes(0.045, of_step))
+      ++n;
+    run.changes(0.045, 4.0 * of_step);
+    REQUIRE(run.changes(0.045, 4.0 * of_step));
+    return n;
+  };
+  CHECK(windows() == 80);
+  CHECK(windows() == 160);
+  MethodChoice other(MethodOrder{explicit_first, "nothing is stiff", true});
+  other.set(run.choice.state());
+  CHECK(in_words(other) == in_words(run.choice));
 }
 
 TEST_CASE("a choice is saved and restored") {
   MethodChoice choice = chosen(), other = chosen();
   stop(choice, 1.5, "Größe");
-  choice.accept(1e-3, 10.0, true, 0.0);
+  choice.accept(1e-3, true, 0.0);
   other.set(choice.state());
   CHECK(in_words(other) == in_words(choice));
   MethodChoice named("radau");
