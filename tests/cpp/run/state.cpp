@@ -22,7 +22,7 @@ run::State example() {
   s.yp = VectorX::Constant(5, std::numeric_limits<double>::denorm_min());
   s.scene = "some scene";
   s.held.signals = {{INFINITY, -0.0, 1e300}, {}};
-  s.methods.changes = {{run::MethodChange::Cause::guard, "radau", 0.5, "text of a reason"}};
+  s.methods.changes = {{run::MethodChange::Cause::guard, "radau", 0.5, "text of a reason", "ida"}};
   s.method = integrate::BdfState{10.0, 3, {7, 0.25}};
   s.history.emplace().pieces = {{0.0, 0.5, MatrixX::Random(2, 3)}};
   s.controllers.emplace_back().law = std::string("bytes\0behind", 12);
