@@ -34,7 +34,7 @@ def listed(header: str, template: str, last: str, entry: str) -> str:
 #: Template, its folder in the kernel, the header with the list, the end of the list, the entry.
 PLACES = [
     ("dead_band.h", "control", "model/controller.h", "control::Fmu>;", "control::DeadBand"),
-    ("gaussian_swell.h", "sea", "sea/wave.h", "DensityTable, Measured>;", "GaussianSwell"),
+    ("gaussian_swell.h", "sea", "sea/wave.h", "NewWave, ComponentFile>;", "GaussianSwell"),
     (
         "pto_quadratic.h",
         "element",

@@ -151,6 +151,24 @@ def test_sums_and_moments(both: bool, tmp_path: Path) -> None:
         np.testing.assert_allclose(found, exact, rtol=0.0, atol=1e-9 * np.abs(exact).max())
 
 
+def test_a_table_of_single_waves(tmp_path: Path) -> None:
+    """The mean drift of each wave, and Newman's slow drift by it as by the diagonal of pairs."""
+    whole = made_up()
+    i = np.arange(OMEGA.size)
+    diagonal = replace(whole, kind="mean", values=whole.values[i, i], computed=whole.computed[i, i])
+    (tmp_path / "pairs").mkdir()
+    write(tmp_path / "pairs", whole)
+    write(tmp_path, diagonal)
+    mean = load(hydrodae.run(case(tmp_path, ["mean"])))[:, 0]
+    at = [int(np.abs(OMEGA - w).argmin()) for w, _, _ in WAVES]
+    drift = sum(
+        a**2 * diagonal.values[k, 0, 0].real for k, (_, a, _) in zip(at, WAVES, strict=True)
+    )
+    np.testing.assert_allclose(mean, drift, rtol=1e-9)
+    runs = [hydrodae.run(case(f, ["newman"])) for f in (tmp_path, tmp_path / "pairs")]
+    np.testing.assert_allclose(load(runs[0]), load(runs[1]), rtol=1e-9, atol=1e-6)
+
+
 def test_few_products_of_a_sea(tmp_path: Path) -> None:
     """The default stays within 1e-3 of the rms of all terms, from far fewer pairs."""
     write(tmp_path, made_up())

@@ -87,16 +87,18 @@ PairTable::PairTable(const hydro::Database& db, const hydro::SecondOrderTable& t
     for (Index p = 0; p < own.size(); ++p) {
       const Eigen::MatrixXcd T = cube(p, p, c);
       const double largest = T.array().isFinite().select(T, 0.0).cwiseAbs().maxCoeff();
-      for (Index i = 0; i < T.rows(); ++i)
-        if (std::abs(T(i, i).imag()) > noise * largest)
+      for (Index i = 0; i < T.rows(); ++i) {
+        const std::complex<double> mean = T(i, table.one_axis() ? 0 : i);
+        if (std::abs(mean.imag()) > noise * largest)
           throw ModelError(
               "second_order.loads",
               "the table " + in_quotes(table.kind) + " of " + db.path + " has the load " +
-                  number_text(T(i, i).real()) + " + " + number_text(T(i, i).imag()) +
+                  number_text(mean.real()) + " + " + number_text(mean.imag()) +
                   "i of two equal waves of " + number_text(table.omega[i]) + " rad/s on " +
                   table
                       .coordinates[static_cast<std::size_t>(column_[static_cast<std::size_t>(c)])] +
                   ": a mean is real; import it again from its source");
+      }
     }
   }
 }

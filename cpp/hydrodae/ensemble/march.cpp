@@ -47,6 +47,7 @@ struct Run {
   VectorX y, yp; ///< state at the end of the last step
   std::unique_ptr<session::SeaSample> sea;
   std::vector<double> exchanged; ///< energy of each balance [J]
+  std::vector<double> sampled;   ///< work of each take-off at the last sample [J]
   std::string left;              ///< reason why it has left the march; empty: it has not
 };
 
@@ -439,7 +440,9 @@ void March::judge_energy(std::size_t k) {
 }
 
 /// Work of the take-offs at the times of the output within the step, by the cubic polynomial
-/// through works and powers at its ends: the intervals of means need no more.
+/// through works and powers at its ends: the intervals of means need no more. Where both powers
+/// have one sign, the work does not turn back: intervals of a mean whose power keeps its sign are
+/// ratios (math/sampling.h).
 void March::sample(double t0, double h, const std::vector<Lanes>& before) {
   const double dt = scene_.output.step;
   for (; static_cast<double>(next_sample_) * dt <= (t0 + h) * (1.0 + 1e-14); ++next_sample_) {
@@ -447,9 +450,18 @@ void March::sample(double t0, double h, const std::vector<Lanes>& before) {
                  z = 1.0 - x;
     const double by_end = x * x * (3.0 - 2.0 * x);
     for (std::size_t k = 0; k < count_; ++k) {
-      for (std::size_t i = 0; i < row_.size(); ++i)
-        row_[i] = -((1.0 - by_end) * before[i].lane[k] + by_end * work_[i].lane[k] +
-                    h * x * z * (z * powers_[0][i].lane[k] - x * powers_[stages][i].lane[k]));
+      std::vector<double>& sampled = runs_[k].sampled;
+      sampled.resize(row_.size());
+      for (std::size_t i = 0; i < row_.size(); ++i) {
+        const double first = before[i].lane[k], last = work_[i].lane[k], p0 = powers_[0][i].lane[k],
+                     p1 = powers_[stages][i].lane[k];
+        double work = (1.0 - by_end) * first + by_end * last + h * x * z * (z * p0 - x * p1);
+        if (p0 * p1 >= 0.0)
+          work = last > first ? std::clamp(work, std::min(std::max(first, sampled[i]), last), last)
+                              : std::clamp(work, last, std::max(std::min(first, sampled[i]), last));
+        sampled[i] = work;
+        row_[i] = -work;
+      }
       runs_[k].sea->take(t, ramp_, row_);
     }
   }

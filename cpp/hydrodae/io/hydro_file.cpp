@@ -226,7 +226,7 @@ std::vector<MatrixX> read_matrices(const Input& file, const std::string& dataset
 hydro::SecondOrderTable read_second_order(const Input& file, const std::string& kind,
                                           const std::set<std::string>& coordinates) {
   const std::string group = "/second_order/" + kind;
-  if (kind != "mean" && kind != "difference" && kind != "sum")
+  if (!hydro::second_order_kind(kind))
     file.refuse(group, "expected mean, difference or sum");
   hydro::SecondOrderTable table;
   table.kind = kind;

@@ -15,7 +15,7 @@ from hydrodae.study.drift import mean_offset
 from hydrodae.study.drift.far_field import drift_of
 from hydrodae.study.drift.scene import Surroundings
 from hydrodae.study.drift.table import write_database
-from hydrodae.study.drift.text import write_csv
+from hydrodae.study.drift.text import table, write_csv
 from hydrodae.support.progress import StageLine
 
 STAGES = ("linear model", "far field", "mean offset")
@@ -78,7 +78,7 @@ def run(arguments: argparse.Namespace) -> int:
             stage(STAGES[2])
             offset = mean_offset(case, still=model)
     if not arguments.json:
-        print(found)
+        print(table(found))
         if offset is not None:
             print(f"\n{offset}")
     for path in outputs:

@@ -103,12 +103,6 @@ class Drift:
         largest = float(np.abs(self.by_power).max())
         return float((self.along - self.least).min()) / (largest if largest > 0.0 else 1.0)
 
-    def __str__(self) -> str:
-        from hydrodae.study.drift.text import table
-
-        return table(self)
-
-
 def drift(
     case: CaseLike | LinearModel,
     *,
