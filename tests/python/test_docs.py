@@ -51,6 +51,7 @@ RUN_COMMANDS = (
     "docs/methods.md",
     "docs/performance.md",
     "docs/reference/README.md",
+    "docs/second_order.md",
     "docs/spectral.md",
     "docs/sweeps.md",
     "docs/theory.md",
