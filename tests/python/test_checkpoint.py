@@ -192,6 +192,23 @@ def test_refusals(case: Path, tmp_path: Path) -> None:
     assert checkpoint.read_text() == "a note"
 
 
+def test_a_damaged_checkpoint_is_refused(case: Path, tmp_path: Path) -> None:
+    """Sizes of its collections of texts, which the HDF5 library takes as they are."""
+    output = tmp_path / "killed.h5"
+    kill_in_the_middle(case, output, "--checkpoint", "0")
+    checkpoint = output.with_suffix(".checkpoint.h5")
+    whole = checkpoint.read_bytes()
+    at = whole.index(b"GCOL")
+    for place in (8, 24, 40):  # of the collection, of its first object, of text
+        damaged = bytearray(whole)
+        damaged[at + place : at + place + 8] = b"\xff" * 8
+        checkpoint.write_bytes(damaged)
+        process = start(case, output, "--resume")
+        assert process.wait() in (0, 2), place  # no signal
+    checkpoint.write_bytes(whole)
+    assert start(case, output, "--resume").wait() == 0
+
+
 def test_a_checkpoint_whose_samples_are_gone(case: Path, tmp_path: Path) -> None:
     output = tmp_path / "out.h5"
     kill_in_the_middle(case, output, "--checkpoint", "0")

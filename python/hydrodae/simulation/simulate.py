@@ -8,6 +8,7 @@ import warnings
 import weakref
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
+from functools import partial
 from pathlib import Path
 from threading import Event, current_thread, main_thread
 from types import FrameType
@@ -15,9 +16,17 @@ from typing import TYPE_CHECKING, Any
 
 from hydrodae.case.callbacks import join_functions
 from hydrodae.case.case import CaseLike, read_case
-from hydrodae.errors import CaseError, NotReproducible, RunInterrupted, RunWarning, SolverError
+from hydrodae.errors import (
+    CaseError,
+    HydrodaeError,
+    NotReproducible,
+    RunInterrupted,
+    RunWarning,
+    SolverError,
+)
 from hydrodae.results import Results
 from hydrodae.results.recording import doubts_of
+from hydrodae.support.damaged import apart
 
 if TYPE_CHECKING:
     from hydrodae._core import Scene
@@ -123,6 +132,8 @@ def run(
     else:
         path = Path(output)
         path.parent.mkdir(parents=True, exist_ok=True)
+    if resume:
+        _look_apart(path)
     older = _stamp(path)
     try:
         found = _integrate(scene, path, progress, functions, (verify, checkpoint, resume, strict))
@@ -148,6 +159,32 @@ def run(
     if doubts := doubts_of(found["reproducible_until"], found["notes"]):
         warnings.warn("; ".join(doubts), RunWarning, stacklevel=2)
     return results
+
+
+def _look_apart(results: Path) -> None:
+    """Read in a child process what a resumed run reads: a damaged file may end the HDF5 library.
+
+    Raises
+    ------
+    CaseError
+        Reading the results or their checkpoint ended the child.
+    """
+    from hydrodae import _core
+
+    def refused(path: Path, text: str) -> CaseError:
+        return CaseError(f"{path}: {text}")
+
+    def look(path: Path) -> None:
+        with suppress(HydrodaeError):  # the kernel refuses the file with its own words
+            file = _core.ResultsReader(str(path))
+            for name in ("/", *file.datasets()):
+                file.attributes(name)
+
+    results = results.resolve()
+    beside = (results.with_suffix(f".{word}{results.suffix}") for word in ("checkpoint", "partial"))
+    for path in (*beside, results):
+        if path.is_file():
+            apart(path, refused, "cannot be resumed", partial(look, path))
 
 
 def _integrate(
