@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError
@@ -24,6 +25,7 @@ from hydrodae.study.slow.pairs import PairLoads
 from hydrodae.study.slow.sea import PairSea, sea_of
 from hydrodae.support.arrays import Array, Complex
 
+Places = NDArray[np.intp]
 #: Words of the case for loads at differences of frequencies.
 SLOW = ("mean", "newman", "difference")
 
@@ -93,7 +95,7 @@ class SlowLoads:
                 return tables[kind]
         raise CaseError(f"the database has no table {kinds[0]!r}", key="second_order.loads")
 
-    def single(self, i: Array) -> Array:
+    def single(self, i: Places) -> Array:
         """Return the mean loads (n, m) of waves by themselves over the squares of amplitudes."""
         out = np.zeros((i.size, len(self.model.hydro_labels)))
         omega, heading = self.sea.omega[i], self.sea.heading[i]
@@ -106,7 +108,7 @@ class SlowLoads:
             )
         return out
 
-    def pairs(self, i: Array, j: Array) -> Complex:
+    def pairs(self, i: Places, j: Places) -> Complex:
         """Return the loads T (n, m) of waves i and j, phases at the origin, over both amplitudes.
 
         Parameters
@@ -122,13 +124,13 @@ class SlowLoads:
                 values = part.table.pairs((omega[i], omega[j]), (relative[i], relative[j]))
             else:
                 means = self._means[:, part.columns]
-                values = 0.5 * (means[i] + means[j]).astype(complex)
+                values = np.asarray(0.5 * (means[i] + means[j]), dtype=complex)
             out[:, part.columns] = values * (at[i] * at[j].conj())[:, None]
         return out
 
     @cached_property
     def _means(self) -> Array:
-        return self.single(np.arange(self.sea.omega.size))
+        return self.single(np.arange(self.sea.omega.size, dtype=np.intp))
 
     @cached_property
     def _phases(self) -> list[Complex]:
@@ -143,7 +145,7 @@ class SlowLoads:
         if self.sea.width == 0.0:
             same = np.argwhere(np.triu(np.equal.outer(self.sea.omega, self.sea.omega), 1))
             if len(same) and self.word != "mean":
-                i, j = same.T
+                i, j = same.astype(np.intp).T
                 size = 4.0 * np.sqrt(self.sea.energy[i] * self.sea.energy[j])
                 turn = np.exp(1j * (self.sea.phase[i] - self.sea.phase[j]))
                 out += ((size * turn)[:, None] * self.pairs(i, j)).real.sum(axis=0)
@@ -154,11 +156,11 @@ class SlowLoads:
         e, count = self.sea.energy, self.sea.omega.size
         matrices = []
         for apart in range(count):
-            j = np.arange(count - apart)
+            j = np.arange(count - apart, dtype=np.intp)
             values = self.pairs(j + apart, j)
             weight = 8.0 / self.sea.width * e[j + apart] * e[j]
             matrices.append((values * weight[:, None]).T @ values.conj())
-        return self.sea.width * np.arange(count), np.array(matrices)
+        return np.asarray(self.sea.width * np.arange(count)), np.array(matrices)
 
 
 def word_of(model: LinearModel) -> str:

@@ -79,7 +79,7 @@ def slow_motion(model: LinearModel, damping: Array | None = None) -> SlowMotion 
         return None
     loads = SlowLoads(model, word)
     mean = loads.mean()
-    notes = []
+    notes = [loads.sea.lost_text] if loads.sea.lost > 0.0 else []
     omega, spectrum = np.zeros(0), np.zeros((0, mean.size, mean.size), dtype=complex)
     if loads.sea.width > 0.0 and word != "mean":
         omega, spectrum = loads.spectrum()
@@ -177,7 +177,7 @@ def _by_components(
         if j.size == 0:
             continue
         apart = sea.omega[i] - sea.omega[j]
-        values = loads.pairs(np.full(j.size, i), j)
+        values = loads.pairs(np.full(j.size, i, dtype=np.intp), j)
         weight = 8.0 * sea.energy[i] * sea.energy[j]
         square += weight @ np.abs(values) ** 2
         near = _at(model, damping, apart) if few else _between(w, response, apart)

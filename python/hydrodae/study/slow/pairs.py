@@ -68,10 +68,11 @@ class PairLoads:
         out = np.zeros((omega.size, len(self.labels)))
         for p in range(self.heading.size):
             table = self._cube(p, p)
-            means = (table if self.kind == "mean" else np.einsum("iic->ic", table)).real
+            means: Complex = table if self.kind == "mean" else np.einsum("iic->ic", table)
             means = _mix(means[low], means[high], upper)
-            out += _times(weights[:, p], means)
-        return self._finite(out, omega, omega)
+            out += _times(weights[:, p], means).real
+        self._check(out, omega, omega)
+        return out
 
     def pairs(self, omega: tuple[Array, Array], relative: tuple[Array, Array]) -> Complex:
         """Return T (n, c) of pairs of waves, phases at the reference point [N/m2].
@@ -107,7 +108,8 @@ class PairLoads:
                 below = _mix(table[low, low2], table[high, low2], upper)
                 above = _mix(table[low, high2], table[high, high2], upper)
                 out += _times(weight, _mix(below, above, upper2))
-        return np.asarray(self._finite(out, *omega))
+        self._check(out, *omega)
+        return out
 
     def _cube(self, p: int, q: int) -> Complex:
         """Values of all frequencies at two headings, phases at the reference point; else NaN."""
@@ -147,7 +149,8 @@ class PairLoads:
         step = self.omega[high] - self.omega[high - 1]
         return high - 1, high, np.clip((omega - self.omega[high - 1]) / step, 0.0, 1.0)
 
-    def _finite(self, values: Array, first: Array, second: Array) -> Array:
+    def _check(self, values: Complex | Array, first: Array, second: Array) -> None:
+        """Raise CaseError for a load that is not computed."""
         bad = np.argwhere(~np.isfinite(values))
         if len(bad):
             i, c = bad[0]
@@ -156,7 +159,6 @@ class PairLoads:
                 f"and {second[i]:.4g} rad/s, where the sea has waves",
                 key="second_order.loads",
             )
-        return values
 
 
 def _times(weight: Array, values: Complex) -> Complex:
@@ -175,7 +177,7 @@ def _different(headings: Array) -> Array:
     across = found[0] + 2.0 * np.pi - found[-1]
     if found.size > 2 and SAME_HEADING < across < np.diff(found).max() + SAME_HEADING:
         found = np.append(found, found[0] + 2.0 * np.pi)
-    return found
+    return np.asarray(found)
 
 
 def _places_of_pairs(table: SecondOrderTable) -> dict[tuple[int, int], int]:

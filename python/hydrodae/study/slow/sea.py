@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -31,6 +32,8 @@ class PairSea:
         [rad].
     width : float
         Of the bins [rad/s], whose middles are `omega`; 0 for components.
+    lost : float
+        Part of the variance that lies outside the frequencies asked for.
     """
 
     omega: Array
@@ -38,13 +41,27 @@ class PairSea:
     energy: Array
     phase: Array
     width: float
+    lost: float = 0.0
 
     def between(self, low: float, high: float) -> PairSea:
         """Return the waves from one frequency to another, both included."""
         slack = 1e-9
         mine = (self.omega >= low * (1 - slack)) & (self.omega <= high * (1 + slack))
         return PairSea(
-            self.omega[mine], self.heading[mine], self.energy[mine], self.phase[mine], self.width
+            self.omega[mine],
+            self.heading[mine],
+            self.energy[mine],
+            self.phase[mine],
+            self.width,
+            float(self.energy[~mine].sum() / self.energy.sum()),
+        )
+
+    @property
+    def lost_text(self) -> str:
+        """Words for `lost`."""
+        return (
+            f"{100.0 * self.lost:.2g} % of the variance of the waves lies outside the "
+            "frequencies of the table"
         )
 
 
@@ -71,7 +88,7 @@ def sea_of(case: Case, low: float, high: float) -> PairSea:
     if not _is_continuous(case, inside.heading):
         return inside
     names = [wave["name"] for wave in case_tables(case)["wave"]]
-    fine = {f"wave.{name}.components": DRAWN for name in names}
+    fine: dict[str, Any] = {f"wave.{name}.components": DRAWN for name in names}
     fine |= {f"wave.{name}.spacing": "frequency" for name in names}
     waves = wave_components(case.with_values(fine))
     omega, energy = waves[:, 0], 0.5 * waves[:, 2] ** 2
@@ -86,6 +103,7 @@ def sea_of(case: Case, low: float, high: float) -> PairSea:
         np.diff(below),
         np.zeros(BINS),
         edges[1] - edges[0],
+        1.0 - float((below[-1] - below[0]) / energy.sum()) if inside.lost > 0.0 else 0.0,
     )
 
 
