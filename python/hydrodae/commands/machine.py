@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from hydrodae.study.drift import Drift, Offset
     from hydrodae.study.equilibrium import Equilibrium
     from hydrodae.study.rao.responses import Rao
+    from hydrodae.study.slow import SlowMotion
     from hydrodae.study.spectral import Spectral
     from hydrodae.study.spectral.seeds import Seeds
     from hydrodae.study.sweep.optimise import Optimum
@@ -81,8 +82,15 @@ def of_rao(found: Rao) -> dict[str, Any]:
         "response": _of_response(found.response),
         "chosen": _of_response(found.chosen),
         "in_sea": {"standard_deviation": deviations, "mean_power": powers},
+        "slow_motion": _of_slow(found.slow_motion()),
         "notes": found.notes,
     }
+
+
+def _of_slow(found: SlowMotion | None) -> dict[str, Any] | None:
+    from hydrodae.study.slow.text import content
+
+    return None if found is None else content(found)
 
 
 def of_drift(found: Drift, offset: Offset | None) -> dict[str, Any]:
@@ -145,6 +153,7 @@ def of_spectral(found: Spectral, runs: Seeds | None) -> dict[str, Any]:
         "mean_power": found.power,
         "damping": found.damping,
         "iterations": found.iterations,
+        "slow_motion": _of_slow(found.slow),
         "notes": found.notes,
     }
     if runs is not None:

@@ -18,6 +18,8 @@ from hydrodae.study.drift.scene import Surroundings
 from hydrodae.study.drift.text import columns
 from hydrodae.study.rao import output, text
 from hydrodae.study.rao.regular_waves import Harmonic, time_domain
+from hydrodae.study.slow import SlowMotion, slow_motion
+from hydrodae.study.slow.text import table as slow_table
 from hydrodae.support.arrays import Array
 
 if TYPE_CHECKING:
@@ -78,6 +80,16 @@ class Rao:
             Its waves are outside the database.
         """
         return self.model.irregular()
+
+    def slow_motion(self) -> SlowMotion | None:
+        """Return slow loads and motion by the pairs of waves of the case; None without.
+
+        Raises
+        ------
+        CaseError
+            The tables of second order do not cover its waves.
+        """
+        return slow_motion(self.model)
 
     def drift(self) -> Drift:
         """Return mean drift in the waves of `response`, or at the periods asked for.
@@ -163,8 +175,11 @@ class Rao:
         return text.table(self.response, self.chosen)
 
     def sea_table(self) -> str:
-        """Return `in_sea` as text; raises as that."""
-        return text.sea_table(self.response, *self.in_sea())
+        """Return `in_sea` as text, and `slow_motion` of a case with it; raises as those."""
+        deviation, power = self.in_sea()
+        told = text.sea_table(self.response, deviation, power)
+        slow = self.slow_motion()
+        return told if slow is None else f"{told}\n\n{slow_table(slow, deviation)}"
 
     def __str__(self) -> str:
         parts = [text.opening(self.notes, self.modes), self.table()]

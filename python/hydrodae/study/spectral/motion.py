@@ -17,6 +17,7 @@ from hydrodae.errors import CaseError
 from hydrodae.linear import LinearModel, Response
 from hydrodae.linear.response import moves
 from hydrodae.linear.sea import in_waves, wave_components
+from hydrodae.study.slow import SlowMotion, slow_motion
 from hydrodae.study.spectral import text
 from hydrodae.study.spectral.air import air_notes, curved_outlets, turbine_powers
 from hydrodae.study.spectral.linearise import all_notes, dampings, mean_powers, nonlinear_loads
@@ -64,6 +65,8 @@ class Spectral:
         Wall time of the iteration and the responses, without reading and linearising [s].
     notes : list of str
         What is left out.
+    slow : SlowMotion or None
+        Slow loads and motion by pairs of waves, with the same equivalents; None of a case without.
     """
 
     model: LinearModel
@@ -80,6 +83,7 @@ class Spectral:
     change: float
     time: float
     notes: list[str]
+    slow: SlowMotion | None = None
 
     def spectrum(self, name: str, per_band: int = 4) -> tuple[Array, Array]:
         """Spectral density of a channel over bands of frequency.
@@ -277,4 +281,5 @@ def spectral(
         change=found.change,
         time=perf_counter() - start,
         notes=[*all_notes(model, loads, outlets), *air_notes(model, found.drops)],
+        slow=slow_motion(model, found.damping),
     )

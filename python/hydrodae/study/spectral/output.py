@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from hydrodae.study.rao.output import CONVENTION, write_either
+from hydrodae.study.slow import SlowMotion
 from hydrodae.support import outputs
 from hydrodae.support.arrays import Array, Complex
 
@@ -28,6 +29,7 @@ class Found(Protocol):
     rate: dict[str, float]
     power: dict[str, float]
     iterations: int
+    slow: SlowMotion | None
 
 
 def write(path: str | os.PathLike[str], found: Any) -> Path:
@@ -47,7 +49,7 @@ def dataset(found: Any) -> xarray.Dataset:
 
     omega, heading, amplitude, phase = found.waves.T
     names, forces = list(found.names), list(found.power)
-    return xarray.Dataset(
+    data = xarray.Dataset(
         {
             "wave_amplitude": ("component", amplitude, {"unit": "m"}),
             "wave_phase": ("component", phase, {"unit": "rad"}),
@@ -65,6 +67,21 @@ def dataset(found: Any) -> xarray.Dataset:
             "force": forces,
         },
         {"iterations": found.iterations, "convention": CONVENTION},
+    )
+    if found.slow is None:
+        return data
+    slow = found.slow
+    return data.assign_coords(
+        difference=("difference", slow.omega, {"unit": "rad/s"}), loaded=list(slow.labels)
+    ).assign(
+        mean_offset=("response", [slow.offset.get(n, np.nan) for n in names]),
+        slow_standard_deviation=(
+            "response",
+            [slow.standard_deviation.get(n, np.nan) for n in names],
+        ),
+        slow_load_mean=("loaded", slow.mean),
+        slow_load_standard_deviation=("loaded", slow.load_deviation),
+        slow_load_spectrum=(("difference", "loaded"), slow.spectrum),
     )
 
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from hydrodae.study.rao.text import NOTHING, name_of_power, short_name
+from hydrodae.study.slow.text import table as slow_table
 from hydrodae.support.units import displayed
 
 
@@ -40,6 +41,8 @@ def table(found: Any) -> str:
     ]
     lines += [f"damping of {name}: {_damping(value)}" for name, value in found.damping.items()]
     lines += [f"slope of outlet {name}: {g:.5g} kg/(s Pa)" for name, g in found.outlet.items()]
+    if found.slow is not None:
+        lines.append(slow_table(found.slow, found.standard_deviation))
     return "\n".join(lines)
 
 
