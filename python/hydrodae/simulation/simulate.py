@@ -177,7 +177,7 @@ def _look_apart(results: Path) -> None:
     def look(path: Path) -> None:
         with suppress(HydrodaeError):  # the kernel refuses the file with its own words
             file = _core.ResultsReader(str(path))
-            for name in ("/", *file.datasets()):
+            for name in ("/", *(dataset.decode() for dataset in file.datasets())):
                 file.attributes(name)
 
     results = results.resolve()

@@ -322,8 +322,8 @@ def _attach_hydrostatics(data: SourceData, run: Run, motions: Motions) -> None:
     if rows is not None:
         data.files.append(rows.path)
         table = _stiffness(rows, np.arange(1.0, 6.0 * len(names) + 1.0), motions.every)
-        own = rows.modes[rows.modes > 6 * len(names)]
-        if more := sorted({*own} - {*motions.every}):
+        generalised = rows.modes[rows.modes > 6 * len(names)]
+        if more := sorted({*generalised} - {*motions.every}):
             text = f"{rows.path.name}: left out, modes {', '.join(f'{m:g}' for m in more)}"
             text += ", which the run does not have"
             data.findings.append(Finding("info", "hydrostatics", text))
