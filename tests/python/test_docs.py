@@ -51,7 +51,6 @@ RUN_COMMANDS = (
     "docs/methods.md",
     "docs/performance.md",
     "docs/reference/README.md",
-    "docs/second_order.md",
     "docs/spectral.md",
     "docs/sweeps.md",
     "docs/theory.md",
@@ -69,6 +68,8 @@ RUN_APART = {
     ("docs/spectral.md", "python"): 1,
     ("docs/drift.md", "python"): 1,
     ("docs/drift.md", "sh"): 1,
+    ("docs/second_order.md", "python"): 1,
+    ("docs/second_order.md", "sh"): 2,
     ("docs/control.md", "python"): 3,
     ("docs/extending.md", "python"): 1,
     ("docs/conventions.md", "python"): 1,
@@ -222,6 +223,25 @@ def test_page_for_drift_runs(tmp_path, repository, monkeypatch, capsys) -> None:
     known: dict[str, object] = {}
     exec(compile(blocks(page, "python")[0], "drift.md", "exec"), known)
     assert known["found"].error < 1e-3  # type: ignore[attr-defined]
+
+
+def test_page_for_second_order_runs(repository, tmp_path, monkeypatch, capsys) -> None:
+    """Its commands on its case; what it shows is printed."""
+    monkeypatch.chdir(tmp_path)
+    page = repository / "docs" / "second_order.md"
+    *before, drift, rao = command_lines(page)
+    run_lines(before, monkeypatch)
+    (case,) = blocks(page, "toml")
+    Path("moored.toml").write_text(case)
+    run_lines([drift], monkeypatch)
+    capsys.readouterr()
+    run_lines([rao], monkeypatch)
+    said = capsys.readouterr().out.splitlines()
+    shown = next(text for text in blocks(page, "text") if "mean offset" in text)
+    assert set(shown.splitlines()) <= set(said)
+    known: dict[str, object] = {}
+    exec(compile(blocks(page, "python")[0], page.name, "exec"), known)
+    assert known["found"].offset["bodies/buoy/surge"] > 0.0  # type: ignore[attr-defined]
 
 
 def test_page_for_fmus_runs(repository, tmp_path, monkeypatch) -> None:

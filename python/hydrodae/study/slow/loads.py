@@ -64,19 +64,13 @@ class SlowLoads:
     Raises
     ------
     CaseError
-        The tables load no coordinate that moves, or no wave lies within their frequencies.
+        The database has no such table, or no wave lies within its frequencies.
     """
 
     def __init__(self, model: LinearModel, word: str) -> None:
         self.model, self.word = model, word
         table = self._table()
         found = [label for label in model.hydro_labels if label in table.coordinates]
-        if not found:
-            raise CaseError(
-                f"the table {table.kind!r} loads no coordinate that moves; it loads "
-                f"{', '.join(table.coordinates)}",
-                key="second_order.loads",
-            )
         yaws, places = model.hydro_places
         self.parts = []
         for body in dict.fromkeys(label.rpartition(".")[0] for label in found):
@@ -85,7 +79,7 @@ class SlowLoads:
             assert model.database is not None
             loads = PairLoads(model.database, table, tuple(own))
             self.parts.append(Part(loads, columns, float(yaws[columns[0]]), places[columns[0], :2]))
-        self.sea: PairSea = sea_of(model.case, *table.omega[[0, -1]])
+        self.sea: PairSea = sea_of(model.case, table.omega)
 
     def _table(self) -> SecondOrderTable:
         tables = {} if self.model.database is None else self.model.database.second_order

@@ -61,7 +61,9 @@ class SlowMotion:
 
 
 def slow_motion(model: LinearModel, damping: Array | None = None) -> SlowMotion | None:
-    """Return slow loads and motion of a linearised case in its sea; None without such loads.
+    """Return slow loads and motion of a linearised case in its sea.
+
+    None without such loads, or where they load no coordinate that moves.
 
     Parameters
     ----------
@@ -78,6 +80,8 @@ def slow_motion(model: LinearModel, damping: Array | None = None) -> SlowMotion 
     if not word:
         return None
     loads = SlowLoads(model, word)
+    if not loads.parts:
+        return None
     mean = loads.mean()
     notes = [loads.sea.lost_text] if loads.sea.lost > 0.0 else []
     omega, spectrum = np.zeros(0), np.zeros((0, mean.size, mean.size), dtype=complex)

@@ -13,9 +13,9 @@ from hydrodae.errors import CaseError
 from hydrodae.linear.sea import wave_components
 from hydrodae.support.arrays import Array
 
-#: Bins of a continuous sea. Half of them lie below a peak that is a tenth of its frequency wide.
-BINS = 256
-#: Components that are drawn to find the energy of the bins, about 80 in each.
+#: Least and largest number of bins of a continuous sea: the spectra of pairs cost its square.
+BINS, MOST_BINS = 256, 1024
+#: Components that are drawn to find the energy of the bins, at least 20 in each.
 DRAWN = 20000
 #: Waves without a spectrum that is drawn at random.
 FIXED = ("regular", "measured", "new_wave", "components")
@@ -65,17 +65,19 @@ class PairSea:
         )
 
 
-def sea_of(case: Case, low: float, high: float) -> PairSea:
-    """Return the waves of a case between two frequencies [rad/s].
+def sea_of(case: Case, table: Array) -> PairSea:
+    """Return the waves of a case within the frequencies (w,) [rad/s] of a table.
 
     Random long-crested waves of one direction are a continuous sea. Others are the components of
-    the case.
+    the case. The bins are half as wide as the smallest step of the table, which is fine where loads
+    have narrow peaks.
 
     Raises
     ------
     CaseError
         No wave lies between the frequencies.
     """
+    low, high = float(table[0]), float(table[-1])
     drawn = wave_components(case)
     components = PairSea(drawn[:, 0], drawn[:, 1], 0.5 * drawn[:, 2] ** 2, drawn[:, 3], 0.0)
     inside = components.between(low, high)
@@ -94,14 +96,17 @@ def sea_of(case: Case, low: float, high: float) -> PairSea:
     omega, energy = waves[:, 0], 0.5 * waves[:, 2] ** 2
     order = np.argsort(omega)
     omega, energy = omega[order], energy[order]
-    edges = np.linspace(max(low, omega[0]), min(high, omega[-1]), BINS + 1)
+    low, high = max(low, float(omega[0])), min(high, float(omega[-1]))
+    finest = 0.5 * float(np.diff(table).min(initial=high - low))
+    count = int(np.clip(np.ceil((high - low) / finest), BINS, MOST_BINS))
+    edges = np.linspace(low, high, count + 1)
     below = np.interp(edges, omega, np.cumsum(energy) - 0.5 * energy)
     middle = 0.5 * (edges[1:] + edges[:-1])
     return PairSea(
         middle,
-        np.full(BINS, inside.heading[0]),
+        np.full(count, inside.heading[0]),
         np.diff(below),
-        np.zeros(BINS),
+        np.zeros(count),
         edges[1] - edges[0],
         1.0 - float((below[-1] - below[0]) / energy.sum()) if inside.lost > 0.0 else 0.0,
     )
