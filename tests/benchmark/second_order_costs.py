@@ -16,8 +16,10 @@ import os
 import sys
 import tempfile
 import time
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
@@ -35,9 +37,10 @@ from tests.benchmark.hexagonal_arrays import with_bank  # noqa: E402
 RADIUS, DRAFT, CENTER, DEPTH, DENSITY = 5.0, 5.0, -2.5, 60.0, 1025.0
 #: Frequencies of the memory's resonators [rad/s], about as many states as a fit has.
 BANK = np.array([0.5, 0.8, 1.1, 1.5, 2.0])
+Load = Literal["mean", "newman", "difference", "sum"]
 #: Load of the cylinder over that of the semisubmersible.
 SIZE = 0.1
-LOADS: dict[str, list[str]] = {
+LOADS: dict[str, list[Load]] = {
     "linear": [],
     "mean": ["mean"],
     "newman": ["newman"],
@@ -69,7 +72,7 @@ def write_database(path: Path) -> None:
     made.with_second_order(tables()).write(path)
 
 
-def case(folder: Path, loads: list[str], end: float) -> hydrodae.Case:
+def case(folder: Path, loads: Sequence[Load], end: float) -> hydrodae.Case:
     """The cylinder in the sea."""
     made = hydrodae.Scene("Moored cylinder", directory=folder)
     made.hydro(database="hydro.h5")
