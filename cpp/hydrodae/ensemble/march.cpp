@@ -456,9 +456,11 @@ void March::sample(double t0, double h, const std::vector<Lanes>& before) {
         const double first = before[i].lane[k], last = work_[i].lane[k], p0 = powers_[0][i].lane[k],
                      p1 = powers_[stages][i].lane[k];
         double work = (1.0 - by_end) * first + by_end * last + h * x * z * (z * p0 - x * p1);
-        if (p0 * p1 >= 0.0)
-          work = last > first ? std::clamp(work, std::min(std::max(first, sampled[i]), last), last)
-                              : std::clamp(work, last, std::max(std::min(first, sampled[i]), last));
+        if (p0 * p1 >= 0.0) { // the integral of a step may turn back by its error
+          const double sign = p0 + p1 < 0.0 ? -1.0 : 1.0,
+                       least = std::max(sign * first, sign * sampled[i]);
+          work = sign * std::clamp(sign * work, least, std::max(sign * last, least));
+        }
         sampled[i] = work;
         row_[i] = -work;
       }
