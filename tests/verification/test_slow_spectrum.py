@@ -84,10 +84,9 @@ def slow(case: hydrodae.Case) -> SlowMotion:
 def constant_drift(drift: float) -> SecondOrderTable:
     """Mean drift in surge that is the same at all frequencies."""
     omega, one = np.linspace(0.3, 2.4, 8), np.zeros(1)
-    values = np.full((8, 1, 1), drift, dtype=complex)
-    everywhere = np.ones(values.shape, bool)
+    values, all_of = np.full((8, 1, 1), drift, dtype=complex), np.ones((8, 1, 1), bool)
     return SecondOrderTable(
-        "mean", ("float.surge",), ("momentum",), omega, one, one, values, everywhere
+        "mean", ("float.surge",), ("momentum",), omega, one, one, values, all_of
     )
 
 
@@ -136,7 +135,6 @@ def test_offset_of_the_moored_hemisphere(reference, tmp_path):
         (row for row in numbers if row[3] == 1), key=lambda row: abs(row[0] - 1.9)
     )
     drift = db.rho * db.gravity * per_unit
-    assert 0.5 < per_unit < 1.0
     wave = f'type = "regular"\nperiod = {period}\nheight = 0.1'
     cog = tuple(map(float, db.reference_point(name)))
     moored = case(tmp_path, "mean", wave, hydro=name, mass=2094.4, spring=(500.0, 1e3), cog=cog)

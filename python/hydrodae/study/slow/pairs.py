@@ -33,6 +33,7 @@ class PairLoads:
         self, database: HydroDatabase, table: SecondOrderTable, labels: tuple[str, ...]
     ) -> None:
         self.kind, self.omega, self.labels = table.kind, table.omega, labels
+        self._single = table.of.axes == 1
         columns = [table.coordinates.index(label) for label in labels]
         own, mate = table.values[..., columns], table.mate()
         there, both = table.computed[..., columns], mate[1][..., columns]
@@ -68,7 +69,7 @@ class PairLoads:
         out = np.zeros((omega.size, len(self.labels)))
         for p in range(self.heading.size):
             table = self._cube(p, p)
-            means: Complex = table if self.kind == "mean" else np.einsum("iic->ic", table)
+            means: Complex = table if self._single else np.einsum("iic->ic", table)
             means = _mix(means[low], means[high], upper)
             out += _times(weights[:, p], means).real
         self._check(out, omega, omega)
@@ -117,11 +118,11 @@ class PairLoads:
             values = self._values[..., self._pairs[p, q], :]
         elif (q, p) in self._pairs:
             values = self._values[..., self._pairs[q, p], :].conj()
-            values = values if self.kind == "mean" else values.swapaxes(0, 1)
+            values = values if self._single else values.swapaxes(0, 1)
         else:
             return np.full_like(self._values[..., 0, :], np.nan)
         first, second = self._phase[:, p], self._phase[:, q].conj()
-        if self.kind == "mean":
+        if self._single:
             return np.asarray(values * (first * second)[:, None])
         return np.asarray(values * np.outer(first, second)[:, :, None])
 
