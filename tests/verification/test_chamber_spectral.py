@@ -93,6 +93,7 @@ def test_waves_give_what_is_radiated_absorbed_and_let_out() -> None:
     np.testing.assert_allclose(response.excitation_power, out, rtol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "outlet"), [("wells", WELLS), ("biradial", BIRADIAL)])
 def test_mean_power_is_that_of_ten_runs(kind: str, outlet: dict[str, Any]) -> None:
     found = hydrodae.spectral(column(kind, **outlet, **EFFICIENCY))
