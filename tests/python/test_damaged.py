@@ -16,6 +16,7 @@ import pytest
 from tests.errors import refused
 from tests.python.conftest import write_results
 
+import hydrodae
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError, HydrodaeError
 from hydrodae.hdb.database import writers
@@ -187,3 +188,8 @@ def test_a_fault_of_the_library_is_an_error(
     }[kind]
     with pytest.raises(HydrodaeError, match=r"\.h5: is damaged: .* signal SEGV; export it again"):
         read()
+
+
+def test_a_name_that_is_too_long_is_refused() -> None:
+    with pytest.raises(hydrodae.CaseError, match="cannot be read"):
+        hydrodae.Case.read("[" * 400)

@@ -78,7 +78,7 @@ class Case:
     ) -> None:
         if (text is None) == (path is None):
             raise TypeError("a case needs either a text or a path")
-        if path is not None and Path(path).is_fifo():  # which is read once only
+        if path is not None and _is_pipe(Path(path)):  # which is read once only
             text, path = _read_pipe(Path(path)), None
         self._text = text
         self._path = None if path is None else Path(path)
@@ -246,6 +246,13 @@ class Case:
         if self._origin is None:
             return _core.parse_case(self._text, str(self._directory), overrides)
         return _parse_from(self._text, str(self._directory), overrides, self._origin)
+
+
+def _is_pipe(path: Path) -> bool:
+    try:
+        return path.is_fifo()
+    except OSError as error:  # a name that is too long
+        raise CaseError(f"cannot be read: {error.strerror}", file=str(path)) from None
 
 
 def _refuse_other_kind(path: Path) -> None:
