@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from tests.attack.parts import Table
 from tests.errors import wrong
-from tests.verification.sea_scenes import gauge, strut
+from tests.verification.sea_scenes import JONSWAP, gauge, strut
 
 import hydrodae
 from hydrodae.errors import CaseError
@@ -60,6 +60,15 @@ def test_lists_in_place_of_a_file(tmp_path: Path) -> None:
     listed = strut(dict(name="listed", type="components", **keys))
     filed = strut(FILE, folder=write(tmp_path, HEAD + lines(0, 1, 2, 3)))
     np.testing.assert_allclose(wave_components(listed), wave_components(filed), rtol=1e-14)
+
+
+def test_prescribed_waves_are_no_sample_of_a_sea_state() -> None:
+    """No interval, and no expected extremes: nobody has drawn these waves."""
+    w, a, phase, _ = np.array(ROWS).T.tolist()
+    listed: Table = dict(name="listed", type="components", omega=w, amplitude=a, phase=phase)
+    placed = JONSWAP | {"crest": {"height": 3.0, "time": 5.0}}
+    for wave, sampled in ((listed, False), (placed, False), (JONSWAP, True)):
+        assert ("sea_period" in hydrodae.run(strut(wave)).statistics) == sampled
 
 
 def test_the_range_cuts_and_says_so(tmp_path: Path) -> None:

@@ -39,9 +39,16 @@ std::vector<sea::Component> wave_components(const Scene& scene) {
 }
 
 double irregular_period(const Scene& scene) {
+  const auto is_placed = [](const sea::Wave& wave) {
+    const auto* irregular = wave.as<sea::Irregular>();
+    return wave.as<sea::NewWave>() || wave.as<sea::ComponentFile>() ||
+           (irregular && irregular->crest.given());
+  };
+  if (std::any_of(scene.waves.begin(), scene.waves.end(), is_placed))
+    return 0.0;
   double variance = 0.0, lengths = 0.0;
   for (const sea::Wave& wave : scene.waves)
-    if (!wave.as<sea::Regular>() && !wave.as<sea::NewWave>())
+    if (!wave.as<sea::Regular>())
       for (const sea::Component& c : wave_components(scene, wave)) {
         variance += c.amplitude * c.amplitude;
         lengths += c.amplitude * c.amplitude / c.omega;

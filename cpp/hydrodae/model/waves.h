@@ -14,7 +14,8 @@ std::vector<sea::Component> wave_components(const Scene& scene, const sea::Wave&
 /// Components of all wave systems.
 std::vector<sea::Component> wave_components(const Scene& scene);
 
-/// Energy period m_{-1} / m_0 of all irregular or measured wave systems [s]; 0 without any.
+/// Energy period m_{-1} / m_0 of all irregular or measured wave systems [s]; 0 without any. A sea
+/// whose phases or crests are prescribed is no random sample of a sea state: 0, too.
 double irregular_period(const Scene& scene);
 
 } // namespace hydrodae::model
