@@ -14,15 +14,15 @@ namespace hydrodae::test {
 /// Fills every field of a force from its own declaration, within its range.
 template <class Law> Law random_force(Random& random, const std::string& name) {
   Law law;
-  for (const Field<Law>& field : Law::fields()) {
+  for (const AnyField& field : Law::fields()) {
     auto number = [&] {
       const double low = std::isfinite(field.range.min) ? field.range.min : -3.0;
       const double high = std::isfinite(field.range.max) ? field.range.max : low + 6.0;
       return low + (high - low) * (0.5 + 0.45 * random());
     };
     std::visit(
-        [&](auto member) {
-          auto& value = law.*member;
+        [&](auto* member) {
+          auto& value = *member;
           using T = std::remove_reference_t<decltype(value)>;
           if constexpr (std::is_same_v<T, double>) {
             value = number();
@@ -49,7 +49,7 @@ template <class Law> Law random_force(Random& random, const std::string& name) {
               value.data()[k] = number();
           }
         },
-        field.member);
+        field.in(&law));
   }
   return law;
 }

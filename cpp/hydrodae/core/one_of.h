@@ -75,10 +75,4 @@ template <class T> const std::string& name_of_entry(const T& entry) {
     return entry.name;
 }
 
-/// Concatenates keys shared by several types with those of one.
-template <class T> Fields<T> operator+(Fields<T> shared, const Fields<T>& own) {
-  shared.insert(shared.end(), own.begin(), own.end());
-  return shared;
-}
-
 } // namespace hydrodae

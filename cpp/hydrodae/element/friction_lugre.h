@@ -78,19 +78,18 @@ struct FrictionLugre : FrictionLoads {
   }
 
   template <class F = FrictionLugre> static Fields<F> fields() {
-    Fields<F> out = FrictionLoads::fields<F>(more_than(0));
-    out.insert(out.end(),
-               {{"stribeck_rate", &F::stribeck_rate, "m/s or rad/s",
-                 "Rate s'_s over which the load falls from F_s to F_c.", true, more_than(0)},
-                {"bristle_stiffness", &F::bristle_stiffness, "N/m or N m/rad", "Stiffness sigma_0.",
-                 true, more_than(0)},
-                {"bristle_damping", &F::bristle_damping, "N s/m or N m s/rad",
-                 "Damping sigma_1 of the bristles: 2 sqrt(sigma_0 m) lets a mass (or inertia) m "
-                 "stick without swinging.",
-                 true, at_least(0)},
-                {"viscous", &F::viscous, "N s/m or N m s/rad", "Viscous damping sigma_2.", false,
-                 at_least(0)}});
-    return out;
+    return FrictionLoads::fields<F>(more_than(0)) +
+           Fields<F>{
+               {"stribeck_rate", &F::stribeck_rate, "m/s or rad/s",
+                "Rate s'_s over which the load falls from F_s to F_c.", true, more_than(0)},
+               {"bristle_stiffness", &F::bristle_stiffness, "N/m or N m/rad", "Stiffness sigma_0.",
+                true, more_than(0)},
+               {"bristle_damping", &F::bristle_damping, "N s/m or N m s/rad",
+                "Damping sigma_1 of the bristles: 2 sqrt(sigma_0 m) lets a mass (or inertia) m "
+                "stick without swinging.",
+                true, at_least(0)},
+               {"viscous", &F::viscous, "N s/m or N m s/rad", "Viscous damping sigma_2.", false,
+                at_least(0)}};
   }
 };
 

@@ -66,18 +66,16 @@ struct FrictionStribeck : FrictionLoads {
   }
 
   template <class F = FrictionStribeck> static Fields<F> fields() {
-    Fields<F> out = FrictionLoads::fields<F>(at_least(0));
-    out.insert(out.end(),
-               {{"creep_rate", &F::creep_rate, "m/s or rad/s",
-                 "Rate s'_0 below which it is viscous: some thousandth of the rates at work.", true,
-                 more_than(0)},
-                {"stribeck_rate", &F::stribeck_rate, "m/s or rad/s",
-                 "Rate s'_s over which the load falls from F_s to F_c; default: ten times "
-                 "`creep_rate`.",
-                 false, more_than(0)},
-                {"viscous", &F::viscous, "N s/m or N m s/rad", "Viscous damping sigma.", false,
-                 at_least(0)}});
-    return out;
+    return FrictionLoads::fields<F>(at_least(0)) +
+           Fields<F>{{"creep_rate", &F::creep_rate, "m/s or rad/s",
+                      "Rate s'_0 below which it is viscous: some thousandth of the rates at work.",
+                      true, more_than(0)},
+                     {"stribeck_rate", &F::stribeck_rate, "m/s or rad/s",
+                      "Rate s'_s over which the load falls from F_s to F_c; default: ten times "
+                      "`creep_rate`.",
+                      false, more_than(0)},
+                     {"viscous", &F::viscous, "N s/m or N m s/rad", "Viscous damping sigma.", false,
+                      at_least(0)}};
   }
 };
 

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <type_traits>
 
@@ -59,9 +60,8 @@ bool read_single(const toml::table& root, const std::string& name, Places& place
 }
 
 /// Calls `read(table)` for each entry [[name]].
-template <class Read>
 void for_each_entry(const toml::table& root, const std::string& name, Places& places,
-                    const Read& read) {
+                    const std::function<void(const Table&)>& read) {
   const toml::node* node = root.get(name);
   if (!node)
     return;
@@ -81,18 +81,25 @@ void for_each_entry(const toml::table& root, const std::string& name, Places& pl
   }
 }
 
-/// Reads an entry of a list of typed structs: calls `read(std::type_identity<T>{})` with the one of
-/// its `type`. `for_each_type` calls with each of them.
-template <class ForEach, class Read>
-void read_typed(const Table& table, Places& places, const ForEach& for_each, const Read& read) {
-  std::vector<std::string> types;
-  for_each([&]<class T>(std::type_identity<T>) { types.emplace_back(T::type); });
+/// Word of the key `type` of an entry, one of `types`. Throws CaseError.
+std::string type_of_entry(const Table& table, Places& places,
+                          const std::vector<std::string>& types) {
   Key key{"type", "-", any_value, {types.begin(), types.end()}};
   const toml::node* node = find_key(table, key, places);
   if (!node)
     missing_key(table, "type", "-", "Kind of " + table.kind + ": " + joined(types));
   std::string type;
   read_value(*node, key, type);
+  return type;
+}
+
+/// Reads an entry of a list of typed structs: calls `read(std::type_identity<T>{})` with the one of
+/// its `type`. `for_each_type` calls with each of them.
+template <class ForEach, class Read>
+void read_typed(const Table& table, Places& places, const ForEach& for_each, const Read& read) {
+  std::vector<std::string> types;
+  for_each([&]<class T>(std::type_identity<T>) { types.emplace_back(T::type); });
+  const std::string type = type_of_entry(table, places, types);
   for_each([&]<class T>(std::type_identity<T> of) {
     if (type == T::type)
       read(of);

@@ -1,6 +1,7 @@
 #include "hydrodae/io/toml_table.h"
 
 #include <algorithm>
+#include <variant>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
@@ -52,6 +53,29 @@ Table nested_table(const Table& parent, const toml::node& node, const std::strin
     throw CaseError(place, path, label + " must be a table, such as " + name + " = { ... }");
   places[path] = place;
   return {*node.as_table(), label, path, place, parent.kind + "." + name, parent.type};
+}
+
+void read_target(const Table& table, Places& places, const Target& target) {
+  std::vector<std::string> valid;
+  for (const AnyField& field : target.fields)
+    valid.emplace_back(field.key);
+  if (target.typed)
+    valid.insert(valid.begin() + 1, "type"); // behind the name
+  for (const auto& [name, inner] : target.nested)
+    valid.push_back(name);
+  check_keys(table, valid);
+
+  for (const AnyField& field : target.fields) {
+    Key key{field.key, field.unit, field.range, field.choices};
+    const toml::node* node = find_key(table, key, places);
+    if (node)
+      std::visit([&](auto* value) { read_value(*node, key, *value); }, field.in(target.value));
+    else if (field.required)
+      missing_key(table, field.key, field.unit, field.doc);
+  }
+  for (const auto& [name, inner] : target.nested)
+    if (const toml::node* node = table.node.get(name))
+      read_target(nested_table(table, *node, name, places), places, inner);
 }
 
 } // namespace hydrodae::io

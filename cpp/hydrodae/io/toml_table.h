@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 #include <string_view>
-#include <variant>
+#include <utility>
 #include <vector>
 
 #include "hydrodae/core/field.h"
@@ -36,41 +36,32 @@ const toml::node* find_key(const Table& table, Key& key, Places& places);
 [[noreturn]] void missing_key(const Table& table, std::string_view name, std::string_view unit,
                               std::string_view doc);
 
-/// The table under `name` of `parent`, whose members it is read into; throws if it is not a table.
+/// Table under `name` of `parent`, which is read into a member; throws if it is no table.
 Table nested_table(const Table& parent, const toml::node& node, const std::string& name,
                    Places& places);
 
-template <class T> T read_table(const Table& table, Places& places);
+/// Struct that a table is read into: its fields, and the tables inside it.
+struct Target {
+  void* value = nullptr;
+  std::vector<AnyField> fields;
+  bool typed = false; ///< whether the key `type` stands behind the name
+  std::vector<std::pair<std::string, Target>> nested;
+};
 
-/// The table `name` of `parent`, if it has one.
-template <class T>
-void read_nested(const Table& parent, const std::string& name, Places& places, T& out) {
-  if (const toml::node* node = parent.node.get(name))
-    out = read_table<T>(nested_table(parent, *node, name, places), places);
+template <class T> Target target_of(T& value) {
+  Target target{&value, T::fields(), NamedType<T>, {}};
+  for_each_nested<T>([&](const char* name, auto member) {
+    target.nested.emplace_back(name, target_of(value.*member));
+  });
+  return target;
 }
 
 /// Reads and checks all keys of `table`. Throws CaseError.
+void read_target(const Table& table, Places& places, const Target& target);
+
 template <class T> T read_table(const Table& table, Places& places) {
   T value{};
-  const Fields<T> fields = T::fields();
-  std::vector<std::string> valid;
-  for (const Field<T>& field : fields)
-    valid.emplace_back(field.key);
-  if constexpr (NamedType<T>)
-    valid.insert(valid.begin() + 1, "type"); // behind the name
-  for_each_nested<T>([&](const char* name, auto) { valid.emplace_back(name); });
-  check_keys(table, valid);
-
-  for (const Field<T>& field : fields) {
-    Key key{field.key, field.unit, field.range, field.choices};
-    const toml::node* node = find_key(table, key, places);
-    if (node)
-      std::visit([&](auto member) { read_value(*node, key, value.*member); }, field.member);
-    else if (field.required)
-      missing_key(table, field.key, field.unit, field.doc);
-  }
-  for_each_nested<T>(
-      [&](const char* name, auto member) { read_nested(table, name, places, value.*member); });
+  read_target(table, places, target_of(value));
   return value;
 }
 

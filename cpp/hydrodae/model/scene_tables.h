@@ -4,6 +4,7 @@
 #include <string_view>
 #include <tuple>
 #include <type_traits>
+#include <vector>
 
 #include "hydrodae/model/scene.h"
 
@@ -41,14 +42,15 @@ constexpr bool is_required_table(std::string_view name) {
   return name == "body" || name == "solver";
 }
 
+template <class... Force, class Visit>
+void for_each_force_type(std::type_identity<std::tuple<std::vector<Force>...>>,
+                         const Visit& visit) {
+  (visit(std::type_identity<Force>{}), ...);
+}
+
 /// Calls `visit(std::type_identity<Force>{})` for the struct of every kind of force.
 template <class Visit> void for_each_force_type(const Visit& visit) {
-  std::apply(
-      [&](const auto&... list) {
-        (visit(std::type_identity<typename std::remove_cvref_t<decltype(list)>::value_type>{}),
-         ...);
-      },
-      Forces{});
+  for_each_force_type(std::type_identity<Forces>{}, visit);
 }
 
 } // namespace hydrodae::model
