@@ -15,10 +15,6 @@ namespace hydrodae::build {
 
 namespace {
 
-// Largest negative damping, as part of the largest damping. Fits are made passive; tables of real
-// meshes have irregular frequencies (F3OF: 1.3 %), cut kernels ripple (sphere: 0.15 %).
-constexpr double allowed_fit = 1e-3;
-constexpr double allowed_table = 0.05;
 /// Allowed negative damping of one coordinate, as part of its own largest
 constexpr double of_itself = 0.05;
 /// Damping of a coordinate that counts as noise, as part of the largest
@@ -34,7 +30,7 @@ VectorX mass_scale(const system::System& s) {
     const system::BodyData& b =
         s.bodies[static_cast<std::size_t>(h.bodies[static_cast<std::size_t>(k.hydro_body)].body)];
     const double mass = system::rigid_mass(b)(k.component, k.component);
-    scale[u] = std::sqrt(std::max(mass + h.added_mass(u, u), 1e-300));
+    scale[u] = std::sqrt(std::max(mass + h.added_mass.moving(u, u), 1e-300));
   }
   return scale;
 }
@@ -115,37 +111,23 @@ void judge(const system::System& s, const std::vector<Damping>& all, const Vecto
 
 } // namespace
 
-void check_radiation(const model::Scene& scene, const system::System& s, const VectorX& largest) {
+void check_radiation(const model::Scene& scene, const system::System& s) {
   const system::HydroData& h = s.hydro;
   if (scene.solver.force || !h.radiates())
     return;
   const VectorX mass = mass_scale(s);
-  std::vector<Damping> all;
-  std::string what = "Re H of the memory fit";
-  for (const system::HydroData::Block& b : h.blocks)
-    if (!(b.a < 0.0))
-      throw ModelError("hydro.database", "the memory fit has a pole of real part " +
-                                             number_text(b.a) +
-                                             " 1/s: it must be negative, else the memory grows by "
-                                             "itself; fit it again with hydrodae hdb fit");
-  if (h.damped) {
-    what = "the radiation damping";
-    all = damping_of_table(h, mass, *scene.hydro->frequency);
-  } else if (!h.convolution.empty()) {
-    what = "the transform of the radiation kernel";
-    all = damping_of_kernel(h, mass);
-  } else {
-    all = damping_of_fit(h, mass, allowed_fit);
-  }
-  VectorX most = VectorX::Zero(h.n_moving);
-  if (h.damped)
-    most = largest.cwiseQuotient(mass.cwiseAbs2());
-  for (const Damping& d : all)
-    for (Index k = 0; k < d.size(); ++k) {
-      double& own_most = most[d.coordinates[static_cast<std::size_t>(k)]];
-      own_most = std::max(own_most, d.diagonal.col(k).cwiseAbs().maxCoeff());
-    }
-  judge(s, all, most, what, h.damped || !h.convolution.empty() ? allowed_table : allowed_fit);
+  h.visit([&](const auto& rung) {
+    const Judged judged = damping_of(rung, mass);
+    VectorX most = VectorX::Zero(h.n_moving);
+    if (judged.largest.size() > 0)
+      most = judged.largest.cwiseQuotient(mass.cwiseAbs2());
+    for (const Damping& d : judged.sets)
+      for (Index k = 0; k < d.size(); ++k) {
+        double& own_most = most[d.coordinates[static_cast<std::size_t>(k)]];
+        own_most = std::max(own_most, d.diagonal.col(k).cwiseAbs().maxCoeff());
+      }
+    judge(s, judged.sets, most, judged.what, judged.allowed);
+  });
 }
 
 } // namespace hydrodae::build

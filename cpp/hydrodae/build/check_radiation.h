@@ -8,9 +8,6 @@ namespace hydrodae::build {
 /// moving coordinates, except for the noise of real tables. The damping is B, the transform of the
 /// kernel, or Re H of the fit. Throws ModelError with the coordinate, frequency and size, unless
 /// the solver's `force` is set.
-/// @param largest  (n_moving,) damping of each coordinate on itself, largest over the table; used
-/// by constant radiation
-void check_radiation(const model::Scene& scene, const system::System& system,
-                     const VectorX& largest);
+void check_radiation(const model::Scene& scene, const system::System& system);
 
 } // namespace hydrodae::build

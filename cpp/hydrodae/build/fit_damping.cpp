@@ -9,6 +9,8 @@
 #include "hydrodae/build/fit_poles.h"
 #include "hydrodae/build/radiation_damping.h"
 #include "hydrodae/build/weighted_sums.h"
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
 
 namespace hydrodae::build {
 
@@ -100,15 +102,21 @@ double work(const Poles& p, const std::vector<Definite::Place>& places) {
 
 } // namespace
 
-std::vector<Damping> damping_of_fit(const system::HydroData& h, const VectorX& root_mass,
-                                    double allowed) {
-  const std::vector<Poles> sets = coupled_poles(h, root_mass);
+Judged damping_of(const water::ExponentialRadiation& rung, const VectorX& root_mass) {
+  for (const water::ExponentialRadiation::Block& b : rung.blocks)
+    if (!(b.a < 0.0))
+      throw ModelError("hydro.database", "the memory fit has a pole of real part " +
+                                             number_text(b.a) +
+                                             " 1/s: it must be negative, else the memory grows by "
+                                             "itself; fit it again with hydrodae hdb fit");
+  Judged found{"Re H of the memory fit", 1e-3}; // fits are made passive
+  const std::vector<Poles> sets = coupled_poles(rung, root_mass);
   std::vector<std::vector<Definite::Place>> places;
   double cost = 0.0, largest = 0.0;
   for (const Poles& p : sets)
     cost += work(p, places.emplace_back(coupled_places(p)));
   const auto most = static_cast<std::size_t>(std::clamp(sum_budget / (4.0 * cost), 16.0, 400.0));
-  std::vector<Damping> out;
+  std::vector<Damping>& out = found.sets;
   std::vector<Weights> weights;
   for (const Poles& p : sets) {
     Damping& d = out.emplace_back();
@@ -122,7 +130,7 @@ std::vector<Damping> damping_of_fit(const system::HydroData& h, const VectorX& r
     largest = std::max(largest, d.diagonal.cwiseAbs().maxCoeff());
   }
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    if (least_by_residues(sets[i]) >= -allowed * largest)
+    if (least_by_residues(sets[i]) >= -found.allowed * largest)
       continue;
     Damping& d = out[i];
     const Index count = std::ssize(d.frequency);
@@ -130,7 +138,7 @@ std::vector<Damping> damping_of_fit(const system::HydroData& h, const VectorX& r
     d.real = sums(sets[i], weights[i].real, count, d.places, 1.0);
     d.imaginary = sums(sets[i], weights[i].imaginary, count, d.places, -1.0);
   }
-  return out;
+  return found;
 }
 
 } // namespace hydrodae::build

@@ -10,13 +10,14 @@ namespace hydrodae::build {
 namespace {
 
 using Complex = std::complex<double>;
+using Rung = water::ExponentialRadiation;
 
 /// Block of each state; both states of a pair have the same.
-std::vector<Index> blocks_of_states(const system::HydroData& h) {
-  std::vector<Index> out(static_cast<std::size_t>(h.n_states));
-  for (std::size_t k = 0; k < h.blocks.size(); ++k)
-    for (int n = 0; n < (h.blocks[k].pair ? 2 : 1); ++n)
-      out[static_cast<std::size_t>(h.blocks[k].state + n)] = static_cast<Index>(k);
+std::vector<Index> blocks_of_states(const Rung& rung) {
+  std::vector<Index> out(static_cast<std::size_t>(rung.n_states()));
+  for (std::size_t k = 0; k < rung.blocks.size(); ++k)
+    for (int n = 0; n < (rung.blocks[k].pair ? 2 : 1); ++n)
+      out[static_cast<std::size_t>(rung.blocks[k].state + n)] = static_cast<Index>(k);
   return out;
 }
 
@@ -37,17 +38,17 @@ void gather(std::vector<Term>& terms) {
 
 } // namespace
 
-std::vector<Poles> coupled_poles(const system::HydroData& h, const VectorX& root_mass) {
-  const std::vector<Index> block = blocks_of_states(h);
-  const Index n = h.n_moving;
-  Sets sets(n + std::ssize(h.blocks)); // sets of coordinates, then of blocks
-  std::vector<bool> loads(h.blocks.size());
-  h.products.output.for_each([&](Index u, Index state, double) {
+std::vector<Poles> coupled_poles(const Rung& rung, const VectorX& root_mass) {
+  const std::vector<Index> block = blocks_of_states(rung);
+  const Index n = root_mass.size();
+  Sets sets(n + std::ssize(rung.blocks)); // sets of coordinates, then of blocks
+  std::vector<bool> loads(rung.blocks.size());
+  rung.product.for_each([&](Index u, Index state, double) {
     const Index k = block[static_cast<std::size_t>(state)];
     sets.join(u, n + k);
     loads[static_cast<std::size_t>(k)] = true;
   });
-  for (const system::HydroData::Input& in : h.inputs)
+  for (const Rung::Input& in : rung.inputs)
     if (const Index k = block[static_cast<std::size_t>(in.state)];
         loads[static_cast<std::size_t>(k)])
       sets.join(in.coordinate, n + k);
@@ -59,7 +60,7 @@ std::vector<Poles> coupled_poles(const system::HydroData& h, const VectorX& root
     p.coordinates.assign(members.begin(), first);
     p.poles.resize(members.end() - first);
     for (Index k = 0; k < p.poles.size(); ++k) {
-      const system::HydroData::Block& b = h.blocks[static_cast<std::size_t>(first[k] - n)];
+      const Rung::Block& b = rung.blocks[static_cast<std::size_t>(first[k] - n)];
       p.poles[k] = {b.a, b.pair ? b.b : 0.0};
     }
     p.terms.resize(p.coordinates.size());
@@ -71,13 +72,13 @@ std::vector<Poles> coupled_poles(const system::HydroData& h, const VectorX& root
     const std::size_t at = k + static_cast<std::size_t>(n);
     Poles& p = out[lists.set[at]];
     Term term{lists.place[at] - std::ssize(p.coordinates)};
-    term.*part = value / root_mass[u] * (state == h.blocks[k].state ? 1.0 : second);
+    term.*part = value / root_mass[u] * (state == rung.blocks[k].state ? 1.0 : second);
     p.terms[static_cast<std::size_t>(lists.place[static_cast<std::size_t>(u)])].push_back(term);
   };
-  h.products.output.for_each([&](Index u, Index state, double value) {
+  rung.product.for_each([&](Index u, Index state, double value) {
     add(&Term::output, u, state, value, {0.0, -1.0}); // Re(C z) = Re C Re z - Im C Im z
   });
-  for (const system::HydroData::Input& in : h.inputs)
+  for (const Rung::Input& in : rung.inputs)
     add(&Term::input, in.coordinate, in.state, in.value, {0.0, 1.0});
   for (Poles& p : out)
     for (std::vector<Term>& terms : p.terms)

@@ -24,7 +24,7 @@ struct Poles {
 };
 
 /// Sets of coordinates joined by a block: those that it loads and those that drive it.
-std::vector<Poles> coupled_poles(const system::HydroData& h, const VectorX& root_mass);
+std::vector<Poles> coupled_poles(const water::ExponentialRadiation& rung, const VectorX& root_mass);
 
 /// Frequencies from far below the slowest to far above the fastest pole, and near each pole.
 std::vector<double> pole_frequencies(const Poles& p, std::size_t most);

@@ -49,7 +49,7 @@ static std::vector<Definite::Place> coupled_places(const system::HydroData& h) {
   std::vector<Definite::Place> out;
   for (Index v = 0; v < h.n_moving; ++v)
     for (Index u = v; u < h.n_moving; ++u)
-      if (h.added_mass(u, v) != 0.0 || h.added_mass(v, u) != 0.0 ||
+      if (h.added_mass.moving(u, v) != 0.0 || h.added_mass.moving(v, u) != 0.0 ||
           h.coordinates[static_cast<std::size_t>(u)].hydro_body ==
               h.coordinates[static_cast<std::size_t>(v)].hydro_body)
         out.push_back({u, v});
@@ -68,7 +68,7 @@ void check_mass(const system::System& s) {
     return system::rigid_mass(s.bodies[h.bodies[a.hydro_body].body])(a.component, b.component);
   };
   const auto mass = [&](Index u, Index v) {
-    return own(u, v) + 0.5 * (h.added_mass(u, v) + h.added_mass(v, u));
+    return own(u, v) + 0.5 * (h.added_mass.moving(u, v) + h.added_mass.moving(v, u));
   };
   VectorX size(h.n_moving); // mass^-1/2
   for (Index u = 0; u < h.n_moving; ++u) {

@@ -13,10 +13,7 @@ namespace {
 /// Hydrodynamic data before any database is read.
 system::HydroData bare(const system::HydroData& h) {
   system::HydroData out;
-  out.axes = h.axes;
-  out.bodies = h.bodies;
-  out.coordinates = h.coordinates;
-  out.n_moving = h.n_moving;
+  static_cast<water::WetBodies&>(out) = h;
   return out;
 }
 
@@ -28,37 +25,6 @@ system::HydroData radiation_of(const model::Scene& scene, const system::HydroDat
   return std::exchange(s.hydro, std::move(before));
 }
 
-/// Block of one body: six rows, and the moving columns.
-Matrix6 own_block(const system::HydroBody& hb, int number, const MatrixX& all) {
-  Matrix6 out = Matrix6::Zero();
-  for (int c = 0; c < 6; ++c)
-    if (hb.moving[static_cast<std::size_t>(c)] >= 0)
-      out.col(c) = all.block<6, 1>(6 * number, hb.moving[static_cast<std::size_t>(c)]);
-  return out;
-}
-
-/// Appends the memory of one database; `weight` multiplies its loads, -1: none.
-void append_memory(const system::HydroData& from, int weight, system::HydroData& h) {
-  const int first = h.n_states;
-  for (system::HydroData::Block block : from.blocks) {
-    block.state += first;
-    h.blocks.push_back(block);
-  }
-  for (system::HydroData::Input input : from.inputs) {
-    input.state += first;
-    h.inputs.push_back(input);
-  }
-  const auto join = [](MatrixX& to, const MatrixX& more) {
-    const Index columns = to.cols();
-    to.conservativeResize(more.rows(), columns + more.cols());
-    to.rightCols(more.cols()) = more;
-  };
-  join(h.output, from.output);
-  join(h.output_all, from.output_all);
-  h.n_states += from.n_states;
-  h.weight_of_state.resize(static_cast<std::size_t>(h.n_states), weight);
-}
-
 /// Checks the blended added mass at many poses: a cubic between two tables has at most two
 /// extremes, which 8 steps find within a few percent.
 void check_blends(const model::PoseTable& given, const water::PoseTable& table,
@@ -68,7 +34,7 @@ void check_blends(const model::PoseTable& given, const water::PoseTable& table,
   std::vector<double> w(table.axis.weights.size()), slopes(w.size());
   const std::vector<double>& poses = given.poses();
   system::HydroData before = std::exchange(s.hydro, bare(none));
-  s.hydro.added_mass = before.added_mass; // added mass of the other bodies
+  s.hydro.added_mass.moving = before.added_mass.moving; // added mass of the other bodies
   for (std::size_t k = 0; k + 1 < poses.size(); ++k)
     for (int part = 0; part <= between; ++part) {
       const double pose = poses[k] + (poses[k + 1] - poses[k]) * part / between;
@@ -77,7 +43,7 @@ void check_blends(const model::PoseTable& given, const water::PoseTable& table,
       for (std::size_t m = 0; m < 6; ++m)
         for (std::size_t n = 0; n < 6; ++n)
           if (hb.moving[m] >= 0 && hb.moving[n] >= 0)
-            s.hydro.added_mass(hb.moving[m], hb.moving[n]) =
+            s.hydro.added_mass.moving(hb.moving[m], hb.moving[n]) =
                 A(static_cast<Index>(m), static_cast<Index>(n));
       try {
         check_mass(s);
@@ -104,24 +70,29 @@ void add_table(const model::Scene& scene, const model::PoseTable& given,
     table.axis.reference =
         s.bodies[static_cast<std::size_t>(hb.body)].reference[table.axis.component];
   table.axis.weights = CardinalSplines(given.poses());
-  table.first_weight = s.hydro.n_weights;
+  water::AddedMass& added = s.hydro.added_mass;
+  table.first_weight = added.n_weights;
+  // Calls `f` with the rung of the whole scene, and that of `one`.
+  const auto with_rungs = [&](const system::HydroData& one, const auto& f) {
+    std::visit([&]<class Rung>(Rung& rung) { f(rung, std::get<Rung>(one.radiation)); },
+               s.hydro.radiation);
+  };
   for (std::size_t k = 0; k < given.loaded.size(); ++k) {
-    const model::Scene there = model::scene_at_pose(scene, given, k);
-    const system::HydroData one = radiation_of(there, none, s);
-    table.added_mass.push_back(own_block(hb, table.hydro_body, one.added_mass_all));
-    if (one.damped)
-      table.damping.push_back(own_block(hb, table.hydro_body, one.damping_all));
-    if (given.blends_memory())
-      append_memory(one, s.hydro.n_weights, s.hydro);
-    ++s.hydro.n_weights;
+    const system::HydroData one = radiation_of(model::scene_at_pose(scene, given, k), none, s);
+    table.added_mass.push_back(water::own_block(hb, table.hydro_body, one.added_mass.all));
+    with_rungs(one, [&](auto& rung, const auto& there) {
+      rung.add_pose(there, none, table.hydro_body, added.n_weights, given.blends_memory());
+    });
+    ++added.n_weights;
     if (k == 0)
       s.hydro.uncovered.insert(s.hydro.uncovered.end(), one.uncovered.begin(), one.uncovered.end());
   }
   if (!given.blends_memory())
-    append_memory(radiation_of(model::scene_at_rest(scene, given), none, s), -1, s.hydro);
+    with_rungs(radiation_of(model::scene_at_rest(scene, given), none, s),
+               [](auto& rung, const auto& there) { rung.add_rest(there); });
   check_blends(given, table, none, s);
-  s.hydro.bodies[number].table = static_cast<int>(s.hydro.tables.size());
-  s.hydro.tables.push_back(std::move(table));
+  s.hydro.bodies[number].table = static_cast<int>(added.tables.size());
+  added.tables.push_back(std::move(table));
 }
 
 } // namespace
@@ -129,7 +100,6 @@ void add_table(const model::Scene& scene, const model::PoseTable& given,
 void add_pose_tables(const model::Scene& scene, system::System& s) {
   const system::HydroData none = bare(s.hydro);
   s.hydro = radiation_of(model::scene_without_tables(scene), none, s);
-  s.hydro.weight_of_state.assign(static_cast<std::size_t>(s.hydro.n_states), -1);
   for (const model::PoseTable& table : scene.pose_tables)
     add_table(scene, table, none, s);
   s.hydro.link();

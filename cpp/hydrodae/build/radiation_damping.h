@@ -23,20 +23,32 @@ struct Damping {
   Index size() const { return std::ssize(coordinates); }
 };
 
-// Damping of each set of coordinates that the radiation couples, directly or through others; other
-// coordinates do not affect its eigenvalues.
+/// Damping of a rung, as it is checked.
+struct Judged {
+  std::string what = {}; ///< name of the damping in messages
+  /// Largest negative damping, as part of the largest damping
+  double allowed = 0.0;
+  /// Damping of each set of coordinates that the radiation couples, directly or through others;
+  /// other coordinates do not affect its eigenvalues.
+  std::vector<Damping> sets = {};
+  /// (n_moving,) damping of each coordinate on itself, largest over the table; empty: that of
+  /// `sets`
+  VectorX largest = {};
+};
+
 // @param root_mass  sqrt of mass and added mass of each coordinate (n_moving,)
 
-/// Damping Re H of the memory fit, from far below the slowest to far above the fastest pole.
-/// @param allowed  size of negative eigenvalues, as part of the largest diagonal entry
-std::vector<Damping> damping_of_fit(const system::HydroData& h, const VectorX& root_mass,
-                                    double allowed);
+/// Nothing to check.
+inline Judged damping_of(const water::RadiationLaw&, const VectorX&) { return {}; }
+
+/// Damping Re H of the memory fit, from far below the slowest to far above the fastest pole. Throws
+/// ModelError for a pole that does not decay.
+Judged damping_of(const water::ExponentialRadiation& rung, const VectorX& root_mass);
 
 /// Damping B of constant radiation.
-std::vector<Damping> damping_of_table(const system::HydroData& h, const VectorX& root_mass,
-                                      double frequency);
+Judged damping_of(const water::ConstantRadiation& rung, const VectorX& root_mass);
 
 /// Damping int_0^T K cos(w t) dt of the kernel.
-std::vector<Damping> damping_of_kernel(const system::HydroData& h, const VectorX& root_mass);
+Judged damping_of(const water::Convolution& rung, const VectorX& root_mass);
 
 } // namespace hydrodae::build

@@ -206,7 +206,7 @@ std::vector<water::Excitation::Body> wave_loads(const model::Scene& scene, const
     const YawSamples samples = yaw_samples(own[0]->total, 6 * i, meetings[i], all);
     out.push_back({b.name, hb, b.reference, b.length_scale, samples.functions, {}, {}, {}, {}});
     if (hb.table >= 0)
-      out[i].poses = s.hydro.tables[static_cast<std::size_t>(hb.table)].axis;
+      out[i].poses = s.hydro.added_mass.tables[static_cast<std::size_t>(hb.table)].axis;
     for (std::size_t pose = 0; pose < own.size(); ++pose)
       loads[i].push_back(add_load(scene, *own[pose], i, static_cast<int>(pose), meetings[i],
                                   samples, all, sources.split, out[i]));

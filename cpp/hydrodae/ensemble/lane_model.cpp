@@ -48,7 +48,7 @@ void LaneModel::find_clusters() {
   for (std::size_t i = 0; i < wet.size(); ++i) {
     if (!wet[i].moves)
       continue;
-    for (const int j : s_.hydro.links[i].partners) {
+    for (const int j : s_.hydro.partners[i]) {
       const int a = of[static_cast<std::size_t>(wet[i].body)],
                 b = of[static_cast<std::size_t>(wet[static_cast<std::size_t>(j)].body)];
       std::replace(of.begin(), of.end(), std::max(a, b), std::min(a, b));
@@ -194,33 +194,26 @@ HYDRODAE_WIDE void LaneModel::add_water(const Lanes* y, Lanes* yp) {
   }
   std::fill(momentum_.begin(), momentum_.end(), Lanes(0.0));
   std::fill(damped_.begin(), damped_.end(), Lanes(0.0));
-  const Lanes* z = y + h.z0;
-  h.products.added_mass.add_product(U_.data(), momentum_.data());
-  h.products.output.add_product(z, damped_.data());
-  h.products.damping.add_product(U_.data(), damped_.data());
+  const water::WaterMotion<Lanes> motion{h,       U_.data(), U_dot_.data(), y + h.z0,
+                                         nullptr, nullptr,   nullptr,       nullptr};
+  h.added_mass.product.add_product(U_.data(), momentum_.data());
+  h.visit([&](const auto& rung) {
+    rung.add_loads(motion, damped_.data());
+    std::fill_n(yp + h.z0, rung.n_states(), Lanes(0.0));
+    rung.add_rates(motion, 1.0, yp + h.z0);
+  });
   for (std::size_t u = 0; u < U_.size(); ++u) {
     balances_[0].power -= U_[u] * damped_[u];
     balances_[0].kinetic += Lanes(0.5) * U_[u] * momentum_[u];
   }
   force_ = damped_;
   if (h.axes != system::HydroAxes::mean)
-    h.products.added_mass.add_product(U_dot_.data(), force_.data());
+    h.added_mass.product.add_product(U_dot_.data(), force_.data());
   for (const system::HydroBody& hb : h.bodies)
     if (hb.moves)
       loads_[static_cast<std::size_t>(hb.body)] -=
           water::hydro_load<Lanes>(h.axes, hb, bodies_[static_cast<std::size_t>(hb.body)],
                                    of_body(hb, force_), of_body(hb, momentum_));
-  Lanes* rate = yp + h.z0;
-  for (const system::HydroData::Block& b : h.blocks) {
-    const int k = b.state;
-    if (b.pair) {
-      rate[k] = Lanes(b.a) * z[k] - Lanes(b.b) * z[k + 1];
-      rate[k + 1] = Lanes(b.a) * z[k + 1] + Lanes(b.b) * z[k];
-    } else {
-      rate[k] = Lanes(b.a) * z[k];
-    }
-  }
-  h.products.input.add_product(U_.data(), rate);
 }
 
 /// Gyroscopic moments; rates of the positions; the loads as right-hand sides.
@@ -282,7 +275,7 @@ void LaneModel::add_water_mass(std::size_t i, std::size_t j) {
       for (int n = 0; n < 3; ++n) {
         const int u = a.moving[static_cast<std::size_t>(row + m)],
                   v = b.moving[static_cast<std::size_t>(column + n)];
-        out(m, n) = Lanes(u < 0 || v < 0 ? 0.0 : s_.hydro.added_mass(u, v));
+        out(m, n) = Lanes(u < 0 || v < 0 ? 0.0 : s_.hydro.added_mass.moving(u, v));
       }
     return out;
   };
@@ -324,7 +317,7 @@ HYDRODAE_WIDE void LaneModel::fill_masses() {
       turns_[i] = turn_of(wet[i]);
   for (std::size_t i = 0; i < wet.size(); ++i)
     if (wet[i].moves)
-      for (const int j : s_.hydro.links[i].partners)
+      for (const int j : s_.hydro.partners[i])
         if (wet[static_cast<std::size_t>(j)].moves)
           add_water_mass(i, static_cast<std::size_t>(j));
   for (Cluster& cluster : clusters_)

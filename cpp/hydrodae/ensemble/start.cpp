@@ -34,15 +34,11 @@ bool alike(const Start& a, const Start& b) {
   const auto joint = [](const system::JointData& x, const system::JointData& y) {
     return x.A.body == y.A.body && x.B.body == y.B.body && x.type == y.type;
   };
-  const auto links = [](const auto& x, const auto& y) {
-    return x.partners == y.partners && x.states == y.states;
-  };
   const std::vector<system::JointData>&j = a.system.joints, &k = b.system.joints;
-  const auto &m = a.system.hydro.links, &n = b.system.hydro.links;
+  const system::HydroData &m = a.system.hydro, &n = b.system.hydro;
   return a.regime.names == b.regime.names && a.regime.lambdas == b.regime.lambdas &&
-         std::equal(j.begin(), j.end(), k.begin(), k.end(), joint) &&
-         std::equal(m.begin(), m.end(), n.begin(), n.end(), links) &&
-         same_ports(a.system, b.system);
+         std::equal(j.begin(), j.end(), k.begin(), k.end(), joint) && m.partners == n.partners &&
+         m.radiation == n.radiation && same_ports(a.system, b.system);
 }
 
 } // namespace
@@ -81,20 +77,6 @@ std::string of_elements(const system::ElementList& list) {
   return "";
 }
 
-/// Returns whether two scenes have the same radiation states with the same drive.
-bool same_memory(const system::HydroData& a, const system::HydroData& b) {
-  using Block = system::HydroData::Block;
-  using Input = system::HydroData::Input;
-  const auto block = [](const Block& x, const Block& y) {
-    return x.state == y.state && x.a == y.a && x.b == y.b && x.pair == y.pair;
-  };
-  const auto input = [](const Input& x, const Input& y) {
-    return x.state == y.state && x.coordinate == y.coordinate && x.value == y.value;
-  };
-  return std::equal(a.blocks.begin(), a.blocks.end(), b.blocks.begin(), b.blocks.end(), block) &&
-         std::equal(a.inputs.begin(), a.inputs.end(), b.inputs.begin(), b.inputs.end(), input);
-}
-
 /// The method that the run begins with, and what it calls.
 std::string of_method(const Start& start) {
   const SolverOptions& options = start.scene.solver;
@@ -124,7 +106,7 @@ std::string alone_because(const Start& start) {
     return "it has drives or couplings";
   if (system::has_past(s))
     return "its loads depend on the past";
-  if (!s.hydro.tables.empty())
+  if (!s.hydro.added_mass.tables.empty())
     return "its tables follow a pose";
   if (options.order == 5 || options.formulation != "stabilised")
     return "its [solver] asks for another order or formulation";
@@ -135,7 +117,7 @@ std::string alone_because(const Start& start) {
   for (const system::ElementList& list : s.elements)
     if (const std::string why = of_elements(list); !why.empty())
       return why;
-  const MatrixX& A = s.hydro.added_mass;
+  const MatrixX& A = s.hydro.added_mass.moving;
   if (A.size() > 0 && !A.isApprox(A.transpose(), 1e-12))
     return "the added mass is not symmetric";
   return of_method(start);
@@ -166,8 +148,8 @@ std::string apart_because(const Start& one, const Start& other) {
   if (one.regime.lambdas != other.regime.lambdas)
     return "they differ in the rows of their joints";
   const system::HydroData &h = a.hydro, &k = b.hydro;
-  const bool water = h.axes == k.axes && h.added_mass == k.added_mass && h.output == k.output &&
-                     h.damping == k.damping && h.n_states == k.n_states && same_memory(h, k) &&
+  const bool water = h.axes == k.axes && h.added_mass.moving == k.added_mass.moving &&
+                     h.radiation == k.radiation &&
                      std::equal(h.bodies.begin(), h.bodies.end(), k.bodies.begin(), k.bodies.end(),
                                 [](const auto& x, const auto& y) {
                                   return x.yaw == y.yaw && x.moving == y.moving;

@@ -20,10 +20,7 @@ namespace hydrodae::integrate {
 class StageMemory {
 public:
   explicit StageMemory(const system::Regime& s)
-      : s_(s), input_(MatrixX::Zero(s.hydro.n_states, s.hydro.n_moving)) {
-    for (const system::HydroData::Input& in : s.hydro.inputs)
-      input_(in.state, in.coordinate) = in.value;
-  }
+      : s_(s), rung_(s.hydro.as<Rung>()), input_(rung_.input_matrix()) {}
 
   /// Takes the ports of a stage from its Jacobian.
   void take(std::size_t stage, const system::JacobianParts& parts) {
@@ -39,7 +36,7 @@ public:
       return;
     h_ = h;
     responses_.clear();
-    for (const system::HydroData::Block& block : s_.hydro.blocks) {
+    for (const Rung::Block& block : rung_.blocks) {
       const Index m = block.pair ? 2 : 1;
       MatrixX K = MatrixX::Zero(m * s, m * s);
       for (Index i = 0; i < s; ++i)
@@ -57,14 +54,14 @@ public:
     for (Index i = 0; i < s; ++i)
       for (Index j = 0; j < s; ++j) {
         std::size_t k = 0;
-        for (const system::HydroData::Block& block : s_.hydro.blocks) {
+        for (const Rung::Block& block : rung_.blocks) {
           const Index m = block.pair ? 2 : 1;
           driven.middleRows(block.state, m).noalias() =
               responses_[k++].block(m * i, m * j, m, m) * input_.middleRows(block.state, m);
         }
         if (weighted)
           driven.array().colwise() *= ports_[static_cast<std::size_t>(i)].weights.array();
-        transfers_[static_cast<std::size_t>(i * s + j)].noalias() = s_.hydro.output * driven;
+        transfers_[static_cast<std::size_t>(i * s + j)].noalias() = rung_.output * driven;
       }
   }
 
@@ -96,7 +93,7 @@ public:
   /// the states become rows of the identity.
   void forward(MatrixX& residual) {
     const system::HydroData& hydro = s_.hydro;
-    auto rows = residual.middleRows(hydro.z0, hydro.n_states);
+    auto rows = residual.middleRows(hydro.z0, rung_.n_states());
     kept_ = rows;
     rows.setZero();
     MatrixX z = respond(kept_);
@@ -104,7 +101,7 @@ public:
       const Ports& ports = ports_[static_cast<std::size_t>(i)];
       if (ports.weights.size() > 0)
         z.col(i).array() *= ports.weights.array();
-      const VectorX load = hydro.output * z.col(i);
+      const VectorX load = rung_.output * z.col(i);
       for (std::size_t k = 0; k < hydro.bodies.size(); ++k) {
         const system::HydroBody& hb = hydro.bodies[k];
         const system::BodyData& body = s_.bodies[static_cast<std::size_t>(hb.body)];
@@ -136,10 +133,11 @@ public:
       }
       driven.col(i) += input_ * U;
     }
-    increment.middleRows(hydro.z0, hydro.n_states) = respond(driven);
+    increment.middleRows(hydro.z0, rung_.n_states()) = respond(driven);
   }
 
 private:
+  using Rung = water::ExponentialRadiation;
   struct Ports {
     std::vector<system::MemoryPort> memory;
     VectorX weights;
@@ -149,7 +147,7 @@ private:
   MatrixX respond(const MatrixX& r) const {
     MatrixX out(r.rows(), r.cols());
     std::size_t k = 0;
-    for (const system::HydroData::Block& block : s_.hydro.blocks) {
+    for (const Rung::Block& block : rung_.blocks) {
       const Index m = block.pair ? 2 : 1;
       const MatrixX own = r.middleRows(block.state, m);
       const VectorX all = responses_[k++] * Eigen::Map<const VectorX>(own.data(), own.size());
@@ -159,6 +157,7 @@ private:
   }
 
   const system::Regime& s_;
+  const Rung& rung_;
   MatrixX input_; ///< B_r (n_states, n_moving)
   std::vector<Ports> ports_;
   double h_ = 0.0;

@@ -212,7 +212,7 @@ read_database(model::Scene& scene, const std::string& directory, const std::stri
   std::shared_ptr<const hydro::Database> out;
   // Waves need the tables, to check a fit; symmetry checks also use the damping.
   const bool waves = !scene.waves.empty();
-  const model::RadiationRung& radiation = scene.hydro->rung();
+  const model::RungReads radiation = scene.hydro->reads();
   const bool judged = waves && (scene.hydro->axes == "yaw" || radiation.fit);
   const HydroTables tables{waves, judged || radiation.tables, radiation.kernel,
                            waves && scene.second_order.has_value()};

@@ -6,22 +6,19 @@ namespace hydrodae::linalg {
 
 using system::BodyData;
 using system::HydroBody;
-using system::HydroData;
+using Rung = water::ExponentialRadiation;
 
 template <class Scalar>
 NewtonMatrix<Scalar>::NewtonMatrix(const system::Regime& s, const system::Pattern& pattern)
-    : s_(s), points_(s, pattern), lu_(points_.start, points_.row), lifted_(points_.lifted.size()),
-      stays_(points_.empty() ? 0 : points_.n),
+    : s_(s), rung_(s.hydro.as<Rung>()), points_(s, pattern), lu_(points_.start, points_.row),
+      lifted_(points_.lifted.size()), stays_(points_.empty() ? 0 : points_.n),
       n_of_positions_(
           static_cast<std::size_t>(pattern.column_start[static_cast<std::size_t>(s.n_q)])) {
-  const HydroData& h = s.hydro;
   if (!s.has_memory())
     return;
-  input_ = MatrixX::Zero(h.n_states, h.n_moving);
-  for (const HydroData::Input& in : h.inputs)
-    input_(in.state, in.coordinate) = in.value;
-  z_.resize(h.n_states, 1);
-  U_.resize(h.n_moving);
+  input_ = rung_.input_matrix();
+  z_.resize(rung_.n_states(), 1);
+  U_.resize(s.hydro.n_moving);
   find_slots(pattern);
 }
 
@@ -46,7 +43,7 @@ template <class Scalar> void NewtonMatrix<Scalar>::divide(Eigen::Ref<MatrixS> z)
   for (Index c = 0; c < z.cols(); ++c) {
     Scalar* const column = z.col(c).data();
     std::size_t k = 0;
-    for (const HydroData::Block& block : s_.hydro.blocks) {
+    for (const Rung::Block& block : rung_.blocks) {
       const auto& [own, other] = inverse_[k++];
       const Scalar x = column[block.state];
       column[block.state] = product(own, x);
@@ -62,7 +59,7 @@ template <class Scalar> void NewtonMatrix<Scalar>::divide(Eigen::Ref<MatrixS> z)
 /// Inverts D block by block: D^-1 = [[own, -other], [other, own]].
 template <class Scalar> void NewtonMatrix<Scalar>::invert() {
   inverse_.clear();
-  for (const HydroData::Block& block : s_.hydro.blocks) {
+  for (const Rung::Block& block : rung_.blocks) {
     const Scalar d = alpha_ - block.a, b(block.pair ? block.b : 0.0), size = d * d + b * b;
     inverse_.push_back({d / size, b / size});
   }
@@ -79,11 +76,11 @@ template <class Scalar> void NewtonMatrix<Scalar>::find_transfer(Scalar alpha) {
   if (blended)
     driven_.array().colwise() *= parts_->memory_weights.template cast<Scalar>().array();
   if constexpr (std::is_same_v<Scalar, double>) {
-    transfer_.noalias() = s_.hydro.output * driven_;
+    transfer_.noalias() = rung_.output * driven_;
   } else { // two real products: C is real
     transfer_.resize(s_.hydro.n_moving, s_.hydro.n_moving);
-    transfer_.real().noalias() = s_.hydro.output * MatrixX(driven_.real());
-    transfer_.imag().noalias() = s_.hydro.output * MatrixX(driven_.imag());
+    transfer_.real().noalias() = rung_.output * MatrixX(driven_.real());
+    transfer_.imag().noalias() = rung_.output * MatrixX(driven_.imag());
   }
   known_ = true;
 }
@@ -154,11 +151,11 @@ bool NewtonMatrix<Scalar>::factorise(const system::JacobianParts& parts, const A
 }
 
 template <class Scalar> void NewtonMatrix<Scalar>::subtract_memory_loads(VectorS& z, Scalar* b) {
-  const HydroData& h = s_.hydro;
+  const system::HydroData& h = s_.hydro;
   if (parts_->memory_weights.size() > 0)
     z.array() *= parts_->memory_weights.template cast<Scalar>().array();
   U_.setZero();
-  h.products.output.add_product(z.data(), U_.data());
+  rung_.product.add_product(z.data(), U_.data());
   for (std::size_t i = 0; i < h.bodies.size(); ++i) {
     const HydroBody& hb = h.bodies[i];
     const BodyData& body = s_.bodies[static_cast<std::size_t>(hb.body)];
@@ -192,10 +189,10 @@ template <class Scalar> void NewtonMatrix<Scalar>::solve_bodies(Scalar* b) {
 }
 
 template <class Scalar> void NewtonMatrix<Scalar>::solve(Scalar* b) {
-  const HydroData& h = s_.hydro;
+  const system::HydroData& h = s_.hydro;
   if (!s_.has_memory())
     return solve_bodies(b);
-  Eigen::Map<MatrixS> r_z(b + h.z0, h.n_states, 1);
+  Eigen::Map<MatrixS> r_z(b + h.z0, rung_.n_states(), 1);
   z_ = r_z;
   r_z.setZero(); // rows of the memory states are rows of the identity
   w_ = z_.col(0);
@@ -215,7 +212,7 @@ template <class Scalar> void NewtonMatrix<Scalar>::solve(Scalar* b) {
       if (hb.moving[c] >= 0)
         U_[hb.moving[c]] = velocity[c];
   }
-  h.products.input.add_product(U_.data(), z_.data());
+  rung_.input.add_product(U_.data(), z_.data());
   divide(z_);
   r_z = z_;
 }

@@ -78,6 +78,7 @@ private:
   void divide(Eigen::Ref<MatrixS> z) const;
 
   const system::Regime& s_;
+  const water::ExponentialRadiation& rung_;
   const system::JacobianParts* parts_ = nullptr;
   PointElimination points_;
   SparseLu<Scalar> lu_;

@@ -102,8 +102,8 @@ void SaddleMatrix::find_blocks() {
   const auto crooked = [](const auto& A) {
     return A.size() > 0 && (A - A.transpose()).cwiseAbs().maxCoeff() > much_left * largest(A);
   };
-  chosen_ = crooked(s_.hydro.added_mass);
-  for (const water::PoseTable& table : s_.hydro.tables)
+  chosen_ = crooked(s_.hydro.added_mass.moving);
+  for (const water::PoseTable& table : s_.hydro.added_mass.tables)
     chosen_ = chosen_ || std::any_of(table.added_mass.begin(), table.added_mass.end(), crooked);
   if (chosen_)
     return;

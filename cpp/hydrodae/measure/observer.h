@@ -80,7 +80,6 @@ private:
   double power_absorbed(const element::Shape& shape, const PortData& port, const double* in,
                         const double* load, const joint::Vec12<double>* rows) const;
   void observe_tables(const HydroData& hydro);
-  void observe_memory(const HydroData& hydro, const double* y);
   void observe_joints(const double* y);
   void share_reactions(const double* y);
   void subtract(const JointData& j, const joint::Vector12& load);
@@ -90,7 +89,7 @@ private:
   Workspace<double> ws_;
   Observation out_;
   std::vector<Vector6> totals_; ///< per body: inertia minus all loads, tangent axes
-  VectorX rate_, momentum_, memory_;
+  VectorX rate_, momentum_, radiation_;
   /// Values of one list: energies and declared channels, or loads
   std::vector<double> element_values_;
   const element::Elements* in_waves_ = nullptr; ///< law that shows the elevation

@@ -12,38 +12,10 @@ namespace hydrodae::measure {
 
 using namespace system;
 
-/// Radiation loads on all coordinates, including locked ones; needs U and U'.
-void Observer::observe_memory(const HydroData& h, const double* y) {
-  const double* z = weighted_states<double>(h, ws_, y + h.z0);
-  memory_.setZero();
-  h.products.output_all.add_product(z, memory_.data());
-  h.products.damping_all.add_product(ws_.U.data(), memory_.data());
-  for (const water::PoseTable& table : h.tables) {
-    const HydroBody& hb = h.bodies[static_cast<std::size_t>(table.hydro_body)];
-    memory_.segment<6>(6 * table.hydro_body) += water::blend<double>(
-        table.damping, ws_.weights.data() + table.first_weight, hb.gather<double>(ws_.U));
-  }
-  if (h.convolution.empty() || !ws_.past)
-    return;
-  const Past& past = *ws_.past;
-  for (int u = 0; u < h.n_moving; ++u)
-    memory_[6 * h.coordinates[u].hydro_body + h.coordinates[u].component] +=
-        past.memory[u] + past.by_U.row(u).dot(ws_.U) + past.by_U_dot.row(u).dot(ws_.U_dot);
-  for (std::size_t k = 0; k < h.convolution.locked.size(); ++k) {
-    const auto row = static_cast<Eigen::Index>(k);
-    memory_[h.convolution.locked[k]] += past.memory_locked[row] +
-                                        past.locked_by_U.row(row).dot(ws_.U) +
-                                        past.locked_by_U_dot.row(row).dot(ws_.U_dot);
-  }
-}
-
 /// Throws for a body that has left the poses of its table.
 [[noreturn]] void refuse_pose(double t, const System& s, const water::PoseTable& table,
                               double pose) {
-  const std::string& body =
-      s.bodies[static_cast<std::size_t>(
-                   s.hydro.bodies[static_cast<std::size_t>(table.hydro_body)].body)]
-          .name;
+  const std::string& body = s.bodies[static_cast<std::size_t>(s.hydro.of(table).body)].name;
   const bool turns = table.axis.component >= 3;
   const auto text = [&](double x) { return rounded_text(turns ? x * 180.0 / pi : x, 4); };
   throw SolverError(
@@ -62,9 +34,9 @@ void Observer::observe_memory(const HydroData& h, const double* y) {
 /// Momentum A(s) U and d/dt (A(s) U) of bodies with tables, for all six coordinates of each.
 void Observer::observe_tables(const HydroData& h) {
   constexpr double slack = 1e-9; ///< tolerance, as part of the table's range
-  for (std::size_t k = 0; k < h.tables.size(); ++k) {
-    const water::PoseTable& table = h.tables[k];
-    const HydroBody& hb = h.bodies[static_cast<std::size_t>(table.hydro_body)];
+  for (std::size_t k = 0; k < h.added_mass.tables.size(); ++k) {
+    const water::PoseTable& table = h.added_mass.tables[k];
+    const HydroBody& hb = h.of(table);
     const water::PoseCoordinate<double> pose = read_pose(s_, ws_, table);
     const double first = table.axis.weights.front(), last = table.axis.weights.back();
     if (std::max(first - pose.value, pose.value - last) > slack * (last - first))
@@ -86,13 +58,15 @@ void Observer::observe(const HydroData& h, const double* y) {
   hydro_motion(s_, ws_);
   momentum_.setZero();
   rate_.setZero();
-  h.products.added_mass_all.add_product(ws_.U.data(), momentum_.data());
-  h.products.added_mass_all.add_product(ws_.U_dot.data(), rate_.data());
+  h.added_mass.product_all.add_product(ws_.U.data(), momentum_.data());
+  h.added_mass.product_all.add_product(ws_.U_dot.data(), rate_.data());
   observe_tables(h);
-  observe_memory(h, y);
+  radiation_.setZero();
+  const water::WaterMotion<double> motion = water_motion<double>(s_, ws_, y + h.z0);
+  h.visit([&](const auto& rung) { rung.add_all_loads(motion, radiation_.data()); });
   for (int u = 0; u < h.n_moving; ++u) {
     const HydroData::Coordinate& k = h.coordinates[u];
-    out_.kinetic_added_mass += 0.5 * ws_.U[u] * momentum_[6 * k.hydro_body + k.component];
+    out_.kinetic_added_mass += 0.5 * ws_.U[u] * momentum_[k.row()];
   }
   for (std::size_t i = 0; i < h.bodies.size(); ++i) {
     const HydroBody& hb = h.bodies[i];
@@ -106,7 +80,7 @@ void Observer::observe(const HydroData& h, const double* y) {
     if (!h.radiates())
       continue;
     const Vector6 radiation =
-        hydro_load<double>(h.axes, hb, state, memory_.segment<6>(row), Vector6::Zero());
+        hydro_load<double>(h.axes, hb, state, radiation_.segment<6>(row), Vector6::Zero());
     add_load(-to_world(state, radiation));
   }
 }

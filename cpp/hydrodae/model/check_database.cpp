@@ -108,7 +108,7 @@ void check_memory_length(const Scene& scene, double length) {
 void check_kernel(const Scene& scene) {
   const HydroOptions& hydro = *scene.hydro;
   const hydro::Database& database = *scene.database;
-  if (!hydro.rung().kernel)
+  if (!hydro.reads().kernel)
     return;
   const std::string advice = "; make it with: hydrodae hdb kernel " + database.path + " " +
                              joined(moving_coordinates(scene), ",");
@@ -137,18 +137,27 @@ void check_kernel(const Scene& scene) {
 
 /// A key that belongs to one rung stands beside no other; a key that its rung needs is there.
 void check_rung(const HydroOptions& hydro) {
-  for (const RadiationRung& rung : radiation_rungs) {
-    const std::string key(rung.key), name = "radiation = " + in_quotes(std::string(rung.name));
-    const bool own = &rung == &hydro.rung(),
-               given = (key == "frequency" && hydro.frequency) || (key == "fit" && hydro.fit) ||
-                       (key == "memory_length" && hydro.memory_length);
-    if (given && !own)
-      throw ModelError("hydro." + key, "'" + key + "' belongs to " + name + "; the radiation is " +
-                                           in_quotes(hydro.radiation));
-    if (own && !given && !rung.unit.empty())
-      throw ModelError("hydro.radiation",
-                       name + " needs the key '" + key + "' [" + std::string(rung.unit) + "]");
-  }
+  water::for_each_rung([&]<class Rung>(std::type_identity<Rung>) {
+    const std::string name = "radiation = " + in_quotes(std::string(Rung::type));
+    const bool own = Rung::type == hydro.radiation;
+    for (const Field<HydroOptions>& field : Rung::template keys<HydroOptions>()) {
+      const std::string key(field.key);
+      const bool given = std::visit(
+          [&](auto member) {
+            if constexpr (requires { (hydro.*member).has_value(); })
+              return (hydro.*member).has_value();
+            else
+              return false;
+          },
+          field.member);
+      if (given && !own)
+        throw ModelError("hydro." + key, "'" + key + "' belongs to " + name +
+                                             "; the radiation is " + in_quotes(hydro.radiation));
+      if (own && !given && key == Rung::needs)
+        throw ModelError("hydro.radiation",
+                         name + " needs the key '" + key + "' [" + std::string(field.unit) + "]");
+    }
+  });
 }
 
 } // namespace

@@ -111,11 +111,11 @@ void check_pose_table(const Scene& scene, const PoseTable& table) {
   if (!scene.hydro || !body->hydro)
     refuse(table, "body",
            "body " + in_quotes(table.body) + " has no 'hydro', so that no database loads it");
-  if (scene.hydro->rung().kernel)
+  if (scene.hydro->reads().kernel)
     refuse(table, "databases",
            "radiation = \"convolution\" has no tables over poses; use \"exponential\", "
            "\"constant\" or \"none\"");
-  if (table.blends_memory() && !scene.hydro->rung().fit)
+  if (table.blends_memory() && !scene.hydro->reads().fit)
     refuse(table, "memory",
            "memory = \"blended\" needs radiation = \"exponential\" in [hydro]; leave it out");
   if (!scene.database || table.loaded.empty())

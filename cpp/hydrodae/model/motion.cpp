@@ -110,7 +110,7 @@ std::vector<std::string> moving_coordinates(const Scene& scene) {
 }
 
 const hydro::MemoryFit* memory_fit(const Scene& scene) {
-  if (!scene.hydro || !scene.database || !scene.hydro->rung().fit)
+  if (!scene.hydro || !scene.database || !scene.hydro->reads().fit)
     return nullptr;
   const std::vector<std::string> moving =
       moving_coordinates(scene.pose_tables.empty() ? scene : scene_without_tables(scene));

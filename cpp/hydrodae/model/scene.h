@@ -75,20 +75,17 @@ struct Environment {
 };
 
 /// Table [hydro]: the database and the radiation model.
-struct HydroOptions {
+struct HydroOptions : water::RadiationKeys {
   static constexpr std::string_view doc =
       "The hydrodynamic database, and how the loads of the water are taken from it.";
   std::string database;
   std::string axes = "mean";
   std::string radiation = "exponential";
-  std::optional<std::string> fit;
-  std::optional<double> frequency;
-  std::optional<double> memory_length;
 
-  const RadiationRung& rung() const { return radiation_rung(radiation); }
+  RungReads reads() const { return reads_of(radiation); }
 
   template <class H = HydroOptions> static Fields<H> fields() {
-    return {
+    const Fields<H> own = {
         {"database", &H::database, "-", "Path of hydro.h5, relative to the case file.", true},
         {"axes",
          &H::axes,
@@ -100,15 +97,8 @@ struct HydroOptions {
          any_value,
          {"mean", "yaw", "body"}},
         {"radiation", &H::radiation, "-", radiation_doc(), false, any_value, radiation_words()},
-        {"memory_length", &H::memory_length, "s",
-         "Length of the kernel of the convolution; by default that of the database.", false,
-         more_than(0)},
-        {"frequency", &H::frequency, "rad/s",
-         "Frequency of added mass and damping of constant radiation.", false, more_than(0)},
-        {"fit", &H::fit, "-",
-         "Name of the exponential fit; by default the one with the fewest states that covers the "
-         "coordinates that move."},
     };
+    return own + radiation_keys<H>();
   }
 };
 

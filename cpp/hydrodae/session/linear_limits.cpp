@@ -79,7 +79,7 @@ LinearLimits linear_limits(const model::Scene& scene, const system::System& s) {
     const model::Body& body = scene.bodies[static_cast<std::size_t>(hb.body)];
     const bool follows_rise =
         body.hydrostatics_by_mesh() && hb.table >= 0 &&
-        s.hydro.tables[static_cast<std::size_t>(hb.table)].axis.component == 2;
+        s.hydro.added_mass.tables[static_cast<std::size_t>(hb.table)].axis.component == 2;
     for (const hydro::DatabaseBody& entry : scene.database->bodies)
       if (entry.name == *body.hydro && !follows_rise && entry.hydrostatics &&
           entry.hydrostatics->displaced_volume > 0.0)

@@ -123,7 +123,7 @@ bool has_firm_bounds(const model::Scene& scene) {
     });
   };
   return scene.solver.max_step > 0.0 || !scene.controllers.empty() ||
-         (scene.hydro && scene.hydro->rung().kernel) ||
+         (scene.hydro && scene.hydro->reads().kernel) ||
          std::apply([&](const auto&... list) { return (is_late(list) || ...); }, scene.forces);
 }
 

@@ -232,12 +232,11 @@ LinearModel linearize(const model::Scene& scene) {
   still.pose_tables.clear();
   if (still.hydro) {
     still.hydro->radiation = "none";
-    still.hydro->frequency.reset();
-    still.hydro->memory_length.reset();
+    static_cast<water::RadiationKeys&>(*still.hydro) = {};
   }
   system::System system = build::build(still, false);
-  system.hydro.added_mass.setZero();
-  system.hydro.added_mass_all.setZero();
+  system.hydro.added_mass.moving.setZero();
+  system.hydro.added_mass.all.setZero();
   system.hydro.link();
   const auto [y, modes, unstable] = statics::settle(still, system);
   build::note_axes(scene, system);

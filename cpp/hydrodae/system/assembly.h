@@ -113,9 +113,9 @@ template <class Sink> struct Assembly {
   void add(const HydroData& hydro);
   void hydro_body(std::size_t number, const Vector6& rate, const Vector6& momentum);
   void table_columns(std::size_t number, const water::HydroLoadGradient& load);
-  void hydro_pair(const HydroBody& i, const HydroBody& j, const Matrix6& L, const Matrix6& Q);
-  void memory_columns(const HydroBody& i, const std::vector<int>& states, const Matrix6& L);
-  void memory_rows();
+  void partner_columns(std::size_t i, std::size_t j, const Matrix6& L, const Matrix6& Q);
+  void radiation_columns(std::size_t number, const Matrix6& L);
+  void radiation_rows();
   template <int w, int n>
   void law(const PortGradient<w, n>& port, const std::array<int, 2>& bodies, const double* jacobian,
            const element::Shape& shape, Index z);

@@ -13,85 +13,66 @@ using water::Matrix63;
 
 /// Derivatives of the water load on body i by the motion of body j; `mass` adds the inertia.
 template <class Sink>
-void Assembly<Sink>::hydro_pair(const HydroBody& i, const HydroBody& j, const Matrix6& L,
-                                const Matrix6& Q) {
+void Assembly<Sink>::partner_columns(std::size_t i, std::size_t j, const Matrix6& L,
+                                     const Matrix6& Q) {
   // mean axes: U' is linear in the accelerations
   const bool follow = s.hydro.axes != HydroAxes::mean;
-  const bool blends = &i == &j && i.table >= 0;
-  const bool convolved = !s.hydro.convolution.empty() && ws.state.past;
-  const HydroMotionGradient d = hydro_motion_gradient(s.hydro.axes, j, state(j.body));
-  const Matrix6 LA = L * added_mass(s, ws.state, i, j);
+  const HydroBody& moved = s.hydro.bodies[j];
+  const HydroMotionGradient d = hydro_motion_gradient(s.hydro.axes, moved, state(moved.body));
+  const HydroPair pair = hydro_pair(s, ws.state, i, j);
+  const Matrix6 LA = L * pair.inertia;
   Matrix6 by_velocity = Matrix6::Zero();
   Matrix63 by_rotation = LA * d.a_phi;
   if (follow)
     by_velocity << LA * d.a_v, LA * d.a_w;
-  if (follow || blends || convolved || s.hydro.damped) {
-    Matrix6 by_U = Q * hydro_block(s.hydro.added_mass, i, j);
-    if (blends) {
-      const TableHere table = table_here(s, ws.state, i);
-      by_U += Q * table.A + L * (table.rate * table.A_slope + table.damping);
-    }
-    if (s.hydro.damped)
-      by_U += L * hydro_block(s.hydro.damping, i, j);
-    if (convolved)
-      by_U += L * hydro_block(ws.state.past->by_U, i, j);
+  if (follow || pair.damps) {
+    Matrix6 by_U = Q * pair.momentum;
+    if (pair.damps)
+      by_U += L * pair.damping;
     by_velocity.leftCols<3>() += by_U * d.U_v;
     by_velocity.rightCols<3>() += by_U * d.U_w;
     by_rotation += by_U * d.U_phi;
   }
-  const BodyData& b = s.bodies[i.body];
+  const BodyData& b = s.bodies[s.hydro.bodies[i].body];
   for (int k = 0; k < b.n_active; ++k) {
     const int c = b.active[k];
-    rotation_columns(b.u0 + k, j.body, by_rotation.row(c));
-    velocity_columns(b.u0 + k, j.body, by_velocity.row(c));
+    rotation_columns(b.u0 + k, moved.body, by_rotation.row(c));
+    velocity_columns(b.u0 + k, moved.body, by_velocity.row(c));
   }
 }
 
-template <class Sink>
-void Assembly<Sink>::memory_columns(const HydroBody& i, const std::vector<int>& states,
-                                    const Matrix6& L) {
-  const BodyData& b = s.bodies[i.body];
-  for (const int z : states) {
-    Vector6 column = Vector6::Zero();
-    for (int c = 0; c < 6; ++c)
-      if (i.moving[c] >= 0)
-        column[c] = s.hydro.output(i.moving[c], z);
-    if (i.table >= 0)
-      if (const int weight = s.hydro.weight_of_state[static_cast<std::size_t>(z)]; weight >= 0)
-        column *= ws.state.weights[weight];
-    const Vector6 load = L * column;
-    for (int k = 0; k < b.n_active; ++k)
-      sink.by_y(b.u0 + k, s.hydro.z0 + z, load[b.active[k]]);
-  }
+/// Derivatives of the water load on a body by the states of the radiation.
+template <class Sink> void Assembly<Sink>::radiation_columns(std::size_t number, const Matrix6& L) {
+  const BodyData& b = s.bodies[s.hydro.bodies[number].body];
+  const water::WaterMotion<double> motion = water_motion<double>(s, ws.state, y + s.hydro.z0);
+  s.hydro.visit([&](const auto& rung) {
+    rung.for_each_state_load(motion, number, [&](Index z, const Vector6& column) {
+      const Vector6 load = L * column;
+      for (int k = 0; k < b.n_active; ++k)
+        sink.by_y(b.u0 + k, s.hydro.z0 + z, load[b.active[k]]);
+    });
+  });
 }
 
 /// Derivatives of the load on a body with a pose table by its pose s:
-///   d load = (L (A' U' + s' A'' U + B' U + C W' z) + Q A' U - 1/2 (U.A'' U) g) ds + L A' U ds'
+///   d load = (L (A' U' + s' A'' U + dF/ds) + Q A' U - 1/2 (U.A'' U) g) ds + L A' U ds'
 ///            - g U.A' dU - 1/2 (U.A' U) dg,     ds = g.dx, ds' = g.d(v, w) + w.dg
 template <class Sink>
 void Assembly<Sink>::table_columns(std::size_t number, const HydroLoadGradient& load) {
   const HydroBody& hb = s.hydro.bodies[number];
-  const water::PoseTable& table = s.hydro.tables[static_cast<std::size_t>(hb.table)];
+  const water::PoseTable& table = s.hydro.added_mass.tables[static_cast<std::size_t>(hb.table)];
   const BodyState<double>& body = state(hb.body);
   const TableHere here = table_here(s, ws.state, hb);
   std::vector<double>& curvatures = ws.table_curvatures;
   table.axis.weights.curvatures(here.pose.value, curvatures.data());
-  const double* slopes = ws.state.weight_slopes.data() + table.first_weight;
   const Vector6 U = hydro_velocity<double>(s.hydro.axes, hb, body),
                 U_dot = hydro_acceleration<double>(s.hydro.axes, hb, body), &g = here.pose.gradient;
   const Vector6 momentum = here.A_slope * U,
-                bend = moving_rows(hb, water::blend(table.added_mass, curvatures.data())) * U;
-  Vector6 force = here.A_slope * U_dot + here.rate * bend +
-                  moving_rows(hb, water::blend(table.damping, slopes)) * U;
-  for (const int z : s.hydro.links[number].states) {
-    const int weight = s.hydro.weight_of_state[static_cast<std::size_t>(z)];
-    if (weight < 0)
-      continue;
-    for (int c = 0; c < 6; ++c)
-      if (hb.moving[c] >= 0)
-        force[c] +=
-            s.hydro.output(hb.moving[c], z) * ws.state.weight_slopes[weight] * y[s.hydro.z0 + z];
-  }
+                bend =
+                    water::moving_rows(hb, water::blend(table.added_mass, curvatures.data())) * U;
+  Vector6 force = here.A_slope * U_dot + here.rate * bend;
+  const water::WaterMotion<double> motion = water_motion<double>(s, ws.state, y + s.hydro.z0);
+  s.hydro.visit([&](const auto& rung) { rung.add_by_pose(motion, number, force); });
   const Vector6 by_pose = load.L * force + load.Q * momentum - 0.5 * U.dot(bend) * g,
                 by_rate = load.L * momentum;
   const Vector6 along = 0.5 * (here.A_slope + here.A_slope.transpose()) * U;
@@ -110,11 +91,10 @@ void Assembly<Sink>::table_columns(std::size_t number, const HydroLoadGradient& 
   load_by_velocity(hb.body, hb.body, -by_velocity);
 }
 
-// Derivatives of load_i = L (A U' + C z) + Q A U by the poses in L and Q.
+// Derivatives of load_i = L (A U' + F) + Q A U by the poses in L and Q.
 template <class Sink>
 void Assembly<Sink>::hydro_body(std::size_t number, const Vector6& rate, const Vector6& momentum) {
   const HydroBody& i = s.hydro.bodies[number];
-  const HydroData::Links& links = s.hydro.links[number];
   const HydroLoadGradient d = hydro_load_gradient(s.hydro.axes, i, state(i.body), rate, momentum);
   const BodyData& data = s.bodies[i.body];
   for (int k = 0; k < data.n_active; ++k) {
@@ -123,46 +103,40 @@ void Assembly<Sink>::hydro_body(std::size_t number, const Vector6& rate, const V
   }
   if (i.table >= 0)
     table_columns(number, d);
-  for (const int j : links.partners)
-    hydro_pair(i, s.hydro.bodies[static_cast<std::size_t>(j)], d.L, d.Q);
+  for (const int j : s.hydro.partners[number])
+    partner_columns(number, static_cast<std::size_t>(j), d.L, d.Q);
   if constexpr (memory)
-    memory_columns(i, links.states, d.L);
+    radiation_columns(number, d.L);
 }
 
-template <class Sink> void Assembly<Sink>::memory_rows() {
+template <class Sink> void Assembly<Sink>::radiation_rows() {
   const HydroData& h = s.hydro;
+  const Index n = h.n_states();
   if (!memory) {
-    for (int k = 0; k < h.n_states; ++k)
-      sink.by_y(h.z0 + k, h.z0 + k, 1.0);
+    for (Index k = h.z0; k < h.z0 + n; ++k)
+      sink.by_y(k, k, 1.0);
     return;
   }
-  for (const HydroData::Block& b : h.blocks) {
-    const Index k = h.z0 + b.state;
+  for (Index k = h.z0; k < h.z0 + n; ++k)
     sink.by_yp(k, k, 1.0);
-    sink.by_y(k, k, -b.a);
-    if (!b.pair)
-      continue;
-    sink.by_yp(k + 1, k + 1, 1.0);
-    sink.by_y(k + 1, k + 1, -b.a);
-    sink.by_y(k, k + 1, b.b);
-    sink.by_y(k + 1, k, -b.b);
-  }
-  for (std::size_t i = 0; i < h.bodies.size(); ++i) {
-    const HydroBody& hb = h.bodies[i];
-    const int body = hb.body;
-    const BodyData& b = s.bodies[body];
-    const HydroMotionGradient d = hydro_motion_gradient(h.axes, hb, state(body));
-    for (const int number : h.links[i].inputs) {
-      const HydroData::Input& in = h.inputs[static_cast<std::size_t>(number)];
-      const int c = h.coordinates[in.coordinate].component;
-      const Index row = h.z0 + in.state;
-      if (h.axes == HydroAxes::yaw || (c < 3) == (h.axes == HydroAxes::body))
-        rotation_columns(row, body, -in.value * d.U_phi.row(c));
-      for (int k = 0; k < b.n_active; ++k)
-        if (const int a = b.active[k]; (a < 3) == (c < 3))
-          sink.by_y(row, b.u0 + k, -in.value * (a < 3 ? d.U_v(c, a) : d.U_w(c, a - 3)));
+  h.visit([&](const auto& rung) {
+    rung.for_each_rate_by_state([&](Index row, Index column, double value) {
+      sink.by_y(h.z0 + row, h.z0 + column, -value);
+    });
+    for (std::size_t i = 0; n > 0 && i < h.bodies.size(); ++i) {
+      const HydroBody& hb = h.bodies[i];
+      const BodyData& b = s.bodies[hb.body];
+      const HydroMotionGradient d = hydro_motion_gradient(h.axes, hb, state(hb.body));
+      rung.for_each_drive(i, [&](Index state, int c, double value) {
+        const Index row = h.z0 + state;
+        if (h.axes == HydroAxes::yaw || (c < 3) == (h.axes == HydroAxes::body))
+          rotation_columns(row, hb.body, -value * d.U_phi.row(c));
+        for (int k = 0; k < b.n_active; ++k)
+          if (const int a = b.active[k]; (a < 3) == (c < 3))
+            sink.by_y(row, b.u0 + k, -value * (a < 3 ? d.U_v(c, a) : d.U_w(c, a - 3)));
+      });
     }
-  }
+  });
 }
 
 template <class Sink> void Assembly<Sink>::add(const HydroData& h) {
@@ -176,7 +150,7 @@ template <class Sink> void Assembly<Sink>::add(const HydroData& h) {
       continue;
     hydro_body(number, i.gather<double>(w.inertia_force), i.gather<double>(w.momentum));
   }
-  memory_rows();
+  radiation_rows();
 }
 
 } // namespace hydrodae::system

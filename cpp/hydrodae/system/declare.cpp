@@ -47,21 +47,13 @@ void add_channels(const System& s, const element::Elements& laws, std::size_t la
                    std::string(q.doc)});
 }
 
-/// Memory state z' = p z + B U; its size is that of U / |p|.
-std::vector<element::Unknown> memory_unknowns(const System& s, const HydroData& h) {
-  VectorX drive = VectorX::Zero(h.n_states);
-  for (const HydroData::Input& in : h.inputs) {
-    const HydroData::Coordinate& u = h.coordinates[in.coordinate];
+/// Size of each velocity of U.
+VectorX velocities(const System& s, const HydroData& h) {
+  VectorX out(h.n_moving);
+  for (Index k = 0; k < out.size(); ++k) {
+    const HydroData::Coordinate& u = h.coordinates[k];
     const BodyData& b = s.bodies[h.bodies[u.hydro_body].body];
-    const double velocity = b.length_scale / b.time_scale / (u.component < 3 ? 1.0 : b.lever);
-    drive[in.state] += std::abs(in.value) * velocity;
-  }
-  std::vector<element::Unknown> out;
-  for (const HydroData::Block& b : h.blocks) {
-    const double both = b.pair ? drive[b.state] + drive[b.state + 1] : drive[b.state];
-    for (int k = 0; k < (b.pair ? 2 : 1); ++k)
-      out.push_back({"state " + std::to_string(b.state + k), "", both / std::hypot(b.a, b.b), 0.0,
-                     both, false});
+    out[k] = b.length_scale / b.time_scale / (u.component < 3 ? 1.0 : b.lever);
   }
   return out;
 }
@@ -112,9 +104,10 @@ void declare(const System& s, const HydroData& h, Declaration& out) {
     out.pairs.push_back({last, hb.body});
     last = hb.body;
   }
-  if (h.n_states > 0)
+  if (h.n_states() > 0)
     out.states.push_back(
-        {"radiation memory", "radiation memory", h.z0, last, memory_unknowns(s, h)});
+        {"radiation memory", "radiation memory", h.z0, last,
+         h.visit([&](const auto& rung) { return rung.unknowns(velocities(s, h)); })});
 }
 
 Declaration declare(const System& s) {

@@ -56,7 +56,7 @@ double mass_along(const Regime& s, const PortData& port, int c) {
   const BodyData& b = s.bodies[static_cast<std::size_t>(port.body)];
   for (const HydroBody& hb : s.hydro.bodies)
     if (hb.body == port.body && hb.moving[c] >= 0)
-      return s.hydro.own_added_mass(hb.moving[c]) + rigid_mass(b)(c, c);
+      return s.hydro.added_mass.own(s.hydro, hb.moving[c]) + rigid_mass(b)(c, c);
   return 0.0;
 }
 

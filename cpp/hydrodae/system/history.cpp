@@ -58,8 +58,9 @@ double rounding(double t) { return 256.0 * std::numeric_limits<double>::epsilon(
 } // namespace
 
 History::History(const Regime& system, const SolverOptions& options)
-    : s_(system), rtol_(options.rtol), ws_(system), kinks_(find_kinks(system, options)) {
-  const Convolution& c = s_.hydro.convolution;
+    : s_(system), kernels_(system.hydro.as<water::Convolution>()), rtol_(options.rtol), ws_(system),
+      kinks_(find_kinks(system, options)) {
+  const water::Convolution& c = kernels_;
   n_U_ = c.empty() ? 0 : s_.hydro.n_moving;
   for (const DelayData& d : s_.delays)
     keep_ = std::max(keep_, d.time);
@@ -69,7 +70,7 @@ History::History(const Regime& system, const SolverOptions& options)
   state_.largest = strength_ = VectorX::Zero(n_U_);
   for (int p = 0; p < c.n_moving_pairs; ++p) {
     const auto [row, column] = c.pairs[static_cast<std::size_t>(p)];
-    if (const double mass = s_.hydro.added_mass(row, row); row == column && mass > 0.0)
+    if (const double mass = s_.hydro.added_mass.moving(row, row); row == column && mass > 0.0)
       strength_[row] = c.splines.col(p).cwiseAbs().maxCoeff() / mass;
   }
   const Eigen::Index n = n_U_, m = static_cast<Eigen::Index>(c.locked.size());
@@ -146,7 +147,7 @@ void History::add_points(const Node& from, const Node& to, const MatrixX& value)
     return;
   const VectorX points = chebyshev_points(value.cols());
   VectorX U;
-  for_each_point(from.t, to.t, longest_piece * s_.hydro.convolution.step,
+  for_each_point(from.t, to.t, longest_piece * kernels_.step,
                  [&](double t, double weight, double x) {
                    chebyshev_weights(points, x, weights_);
                    U.noalias() = value.topRows(n_U_) * weights_;
@@ -235,10 +236,9 @@ void History::forget() {
   if (state_.nodes.size() < 2)
     return;
   const double from = state_.nodes[state_.nodes.size() - 2].t;
-  const auto old_points =
-      static_cast<std::size_t>(std::lower_bound(state_.point_time.begin(), state_.point_time.end(),
-                                                from - s_.hydro.convolution.length) -
-                               state_.point_time.begin());
+  const auto old_points = static_cast<std::size_t>(
+      std::lower_bound(state_.point_time.begin(), state_.point_time.end(), from - kernels_.length) -
+      state_.point_time.begin());
   if (old_points > few && 2 * old_points > state_.point_time.size()) {
     state_.point_time.erase(state_.point_time.begin(),
                             state_.point_time.begin() + static_cast<std::ptrdiff_t>(old_points));
@@ -275,7 +275,7 @@ void History::scatter(double x, double weight, double* column) const {
 
 /// Scatters the completed steps up to `node`; returns the number of grid rows they reach.
 Eigen::Index History::gather_steps(double t, std::size_t node) const {
-  const Convolution& c = s_.hydro.convolution;
+  const water::Convolution& c = kernels_;
   // end of the kernel, in grid cells
   const double cells = static_cast<double>(c.splines.rows() - 3);
   const double oldest = t - cells * c.step;
@@ -310,7 +310,7 @@ Eigen::Index History::gather_steps(double t, std::size_t node) const {
 /// Scatters the piece from the node to t: its known part into the grid, whose first `rows` are in
 /// use, and the factors of U(t), U'(t) apart. Returns the number of rows that the piece reaches.
 Eigen::Index History::gather_piece(double t, std::size_t node, Eigen::Index rows) const {
-  const Convolution& c = s_.hydro.convolution;
+  const water::Convolution& c = kernels_;
   const Node& from = state_.nodes[node];
   const double h = t - from.t;
   const double cells = static_cast<double>(c.splines.rows() - 3);
@@ -336,7 +336,7 @@ Eigen::Index History::gather_piece(double t, std::size_t node, Eigen::Index rows
 
 /// Loads from the grid, pair by pair.
 void History::sum_pairs(bool locked, Eigen::Index rows, Eigen::Index piece_rows, Past& out) const {
-  const Convolution& c = s_.hydro.convolution;
+  const water::Convolution& c = kernels_;
   out.memory.setZero();
   out.by_U.setZero();
   out.by_U_dot.setZero();
@@ -397,7 +397,7 @@ void History::evaluate(double t, bool locked, Past& out) const {
 }
 
 const Past& History::at(double t, bool locked) const {
-  locked = locked && !s_.hydro.convolution.locked.empty();
+  locked = locked && !kernels_.locked.empty();
   for (const Past& past : memo_)
     if (past.known && past.t == t && (past.locked || !locked))
       return past;

@@ -22,14 +22,10 @@
 namespace hydrodae::system {
 
 /// Past of one time.
-struct Past {
+struct Past : water::ConvolvedPast {
   double t = 0.0;
-  bool known = false;     ///< the values below are those of t
-  bool locked = false;    ///< `memory_locked` and its factors are valid, too
-  VectorX memory;         ///< (n_moving,) int K U, without the parts of U(t) and U'(t) [N, N m]
-  MatrixX by_U, by_U_dot; ///< (n_moving, n_moving) factors of U(t), U'(t) [N s/m, kg]
-  VectorX memory_locked;  ///< (n_locked,) `memory` for the rows that do not move
-  MatrixX locked_by_U, locked_by_U_dot;       ///< (n_locked, n_moving)
+  bool known = false;                         ///< the values below are those of t
+  bool locked = false;                        ///< `memory_locked` and its factors are valid, too
   std::vector<std::array<double, 2>> delayed; ///< s and s' at t - tau, for each delay
 };
 
@@ -113,6 +109,7 @@ private:
   bool rates_jump(const VectorX& value) const;
 
   const Regime& s_;
+  const water::Convolution& kernels_;
   const double rtol_;
   Workspace<double> ws_;
   int n_U_ = 0;       ///< number of channels of the convolution
@@ -130,7 +127,9 @@ private:
 };
 
 /// Returns whether the system has loads that depend on the past.
-inline bool has_past(const System& s) { return !s.hydro.convolution.empty() || !s.delays.empty(); }
+inline bool has_past(const System& s) {
+  return !s.hydro.as<water::Convolution>().empty() || !s.delays.empty();
+}
 
 /// Past of time t, or null.
 inline const Past* past_at(const Regime& s, double t) {

@@ -66,10 +66,11 @@ void fill(const Regime& system, const Pattern& pattern, JacobianWorkspace& ws, d
 void fill_memory(const Regime& s, const JacobianWorkspace& ws, JacobianParts& out) {
   const HydroData& h = s.hydro;
   out.memory.resize(h.bodies.size()); // allocates on the first call only
-  if (!h.tables.empty()) {
-    out.memory_weights.setOnes(h.n_states);
-    for (int z = 0; z < h.n_states; ++z)
-      if (const int weight = h.weight_of_state[static_cast<std::size_t>(z)]; weight >= 0)
+  const auto& rung = h.as<water::ExponentialRadiation>();
+  if (rung.blended) {
+    out.memory_weights.setOnes(rung.n_states());
+    for (int z = 0; z < rung.n_states(); ++z)
+      if (const int weight = rung.weight_of_state[static_cast<std::size_t>(z)]; weight >= 0)
         out.memory_weights[z] = ws.state.weights[weight];
   }
   for (std::size_t i = 0; i < h.bodies.size(); ++i) {
@@ -97,7 +98,7 @@ void fill_memory(const Regime& s, const JacobianWorkspace& ws, JacobianParts& ou
 JacobianWorkspace::JacobianWorkspace(const Regime& system)
     : state(system), rotation(system.bodies.size(), Eigen::Matrix<double, 3, 4>::Zero()),
       hydro_axes(system.hydro.bodies.size(), Matrix6::Identity()),
-      table_curvatures(static_cast<std::size_t>(system.hydro.n_weights)) {
+      table_curvatures(static_cast<std::size_t>(system.hydro.added_mass.n_weights)) {
   std::size_t most = 0;
   for (const ElementList& list : system.elements)
     most = std::max(most, list.laws->size() * list.laws->jacobian_size());

@@ -46,7 +46,7 @@ struct MemoryPort {
 struct JacobianParts {
   std::vector<double> by_y, by_yp; ///< (nonzeros,) dF/dy and dF/dy'
   std::vector<MemoryPort> memory;  ///< coupling of each hydrodynamic body; with Part::condensed
-  /// (n_states,) weights of C z if tables follow poses; with Part::condensed
+  /// (n_states,) weights of C z if they follow poses; with Part::condensed
   VectorX memory_weights;
   /// (n_lambda,) rates (dG/dt) u of the velocity rows; with Part::accelerations
   VectorX row_rates;

@@ -48,9 +48,8 @@ template <class S> struct Workspace {
   std::vector<Vec6<S>> loads;  ///< world force, body-axes moment about the centre of gravity
   std::vector<Vec6<S>> shifts; ///< G^T mu
   VecX<S> U, U_dot, momentum, inertia_force;
-  VecX<S> memory;                   ///< scratch of the convolution
   VecX<S> weights, weight_slopes;   ///< weights of the pose tables, and their derivatives
-  VecX<S> weighted;                 ///< memory states times their weights
+  VecX<S> scratch;                  ///< scratch of the rung of radiation
   std::vector<Vec6<S>> table_loads; ///< load 1/2 U.A' U grad s of each table on its body
   const Past* past = nullptr;       ///< past at the time of this evaluation (history.h)
   std::vector<ElementScratch<S>> elements;
@@ -63,10 +62,10 @@ template <class S> struct Workspace {
   explicit Workspace(const System& s)
       : bodies(s.bodies.size()), loads(s.bodies.size()), shifts(s.bodies.size()),
         U(VecX<S>::Zero(s.hydro.n_moving)), U_dot(U), momentum(U), inertia_force(U),
-        memory(VecX<S>::Zero(s.hydro.convolution.empty() ? 0 : s.hydro.n_moving)),
-        weights(VecX<S>::Zero(s.hydro.n_weights)), weight_slopes(weights),
-        weighted(VecX<S>::Zero(s.hydro.tables.empty() ? 0 : s.hydro.n_states)),
-        table_loads(s.hydro.tables.size(), Vec6<S>::Zero()),
+        weights(VecX<S>::Zero(s.hydro.added_mass.n_weights)), weight_slopes(weights),
+        scratch(VecX<S>::Zero(
+            s.hydro.visit([&](const auto& rung) { return rung.n_scratch(s.hydro); }))),
+        table_loads(s.hydro.added_mass.tables.size(), Vec6<S>::Zero()),
         elements(s.elements.begin(), s.elements.end()) {
     turns.value = start_turns(s);
     turns.rate.assign(turns.value.size(), 0.0);

@@ -17,7 +17,7 @@ std::string limit_steps(const System& s, SolverOptions& options) {
       why = "the shortest delay";
     }
   const bool fixed = options.step > 0.0;
-  const Convolution& c = s.hydro.convolution;
+  const auto& c = s.hydro.as<water::Convolution>();
   if (!c.empty() && c.frequency > 0.0) {
     if (const double h = 1.0 / c.frequency; h < limit) {
       limit = h;

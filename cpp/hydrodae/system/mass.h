@@ -1,5 +1,5 @@
 #pragma once
-/// The mass matrix of the momentum rows, M + D A_inf D^T (system.h).
+/// The mass matrix of the momentum rows, M + D A D^T (system.h).
 
 #include "hydrodae/system/hydrodynamics.h"
 #include "hydrodae/system/jacobian.h"
@@ -15,55 +15,49 @@ inline Matrix6 rigid_mass(const BodyData& b) {
   return out;
 }
 
-/// Block of a matrix (n_moving, n_moving) between two hydrodynamic bodies. Entries of coordinates
-/// that do not move are zero.
-inline Matrix6 hydro_block(const MatrixX& matrix, const HydroBody& i, const HydroBody& j) {
-  Matrix6 block = Matrix6::Zero();
-  for (int m = 0; m < 6; ++m)
-    for (int n = 0; n < 6; ++n)
-      if (i.moving[m] >= 0 && j.moving[n] >= 0)
-        block(m, n) = matrix(i.moving[m], j.moving[n]);
-  return block;
-}
-
 /// Values of a pose table at the pose of its body.
 struct TableHere {
   water::PoseCoordinate<double> pose;
-  double rate = 0.0;           ///< rate s' of the pose
-  Matrix6 A, A_slope, damping; ///< A, dA/ds, B; rows and columns that do not move are zero
+  double rate = 0.0;  ///< rate s' of the pose
+  Matrix6 A, A_slope; ///< A, dA/ds; rows and columns that do not move are zero
 };
 
-/// Matrix with zeros in the rows of coordinates that do not move.
-inline Matrix6 moving_rows(const HydroBody& hb, Matrix6 matrix) {
-  for (int c = 0; c < 6; ++c)
-    if (hb.moving[c] < 0)
-      matrix.row(c).setZero();
-  return matrix;
-}
-
 inline TableHere table_here(const Regime& s, Workspace<double>& ws, const HydroBody& hb) {
-  const water::PoseTable& table = s.hydro.tables[static_cast<std::size_t>(hb.table)];
+  const water::PoseTable& table = s.hydro.added_mass.tables[static_cast<std::size_t>(hb.table)];
   TableHere out;
   out.pose = read_pose(s, ws, table);
   out.rate = out.pose.rate(ws.bodies[hb.body]);
   const double *w = ws.weights.data() + table.first_weight,
                *slopes = ws.weight_slopes.data() + table.first_weight;
-  out.A = moving_rows(hb, water::blend(table.added_mass, w));
-  out.A_slope = moving_rows(hb, water::blend(table.added_mass, slopes));
-  out.damping = moving_rows(hb, water::blend(table.damping, w));
+  out.A = water::moving_rows(hb, water::blend(table.added_mass, w));
+  out.A_slope = water::moving_rows(hb, water::blend(table.added_mass, slopes));
   return out;
 }
 
-/// Added mass of the motion of body j on body i, along the hydrodynamic axes of both. A convolution
-/// adds a part by the acceleration at the end of its last piece.
-inline Matrix6 added_mass(const Regime& s, Workspace<double>& ws, const HydroBody& i,
-                          const HydroBody& j) {
-  Matrix6 A = hydro_block(s.hydro.added_mass, i, j);
-  if (&i == &j && i.table >= 0)
-    A += table_here(s, ws, i).A;
-  if (!s.hydro.convolution.empty() && ws.past)
-    A += hydro_block(ws.past->by_U_dot, i, j);
-  return A;
+/// Derivatives of momentum and force of body i by the motion of body j, along the hydrodynamic axes
+/// of both.
+struct HydroPair {
+  Matrix6 momentum;                  ///< by U
+  Matrix6 inertia;                   ///< of the force, by U'
+  Matrix6 damping = Matrix6::Zero(); ///< of the force, by U
+  bool damps = false;                ///< false: `damping` is zero
+};
+
+inline HydroPair hydro_pair(const Regime& s, Workspace<double>& ws, std::size_t i, std::size_t j) {
+  const HydroBody &a = s.hydro.bodies[i], &b = s.hydro.bodies[j];
+  HydroPair out;
+  out.momentum = water::hydro_block(s.hydro.added_mass.moving, a, b);
+  if (i == j && a.table >= 0) {
+    const TableHere here = table_here(s, ws, a);
+    out.momentum += here.A;
+    out.damping = here.rate * here.A_slope;
+    out.damps = true;
+  }
+  out.inertia = out.momentum;
+  const water::WaterMotion<double> motion = water_motion<double>(s, ws, nullptr);
+  out.damps |= s.hydro.visit(
+      [&](const auto& rung) { return rung.add_gradient(motion, i, j, out.inertia, out.damping); });
+  return out;
 }
 
 /// Products a D^T and D a; `forces`: the force block of D is not the identity.
@@ -78,7 +72,7 @@ inline void turn_rows(const Matrix6& D, bool forces, Matrix6& a) {
     a.topRows<3>().applyOnTheLeft(D.topLeftCorner<3, 3>());
 }
 
-/// Mass matrix M + D A_inf D^T in the poses of the workspace, by pairs of bodies. visit(i, j,
+/// Mass matrix M + D A D^T in the poses of the workspace, by pairs of bodies. visit(i, j,
 /// block): `block` is the load on body i per acceleration [v'; w'] of body j.
 template <class Visit> void mass(const Regime& s, JacobianWorkspace& ws, Visit&& visit) {
   const std::vector<HydroBody>& wet = s.hydro.bodies;
@@ -89,8 +83,9 @@ template <class Visit> void mass(const Regime& s, JacobianWorkspace& ws, Visit&&
   for (std::size_t i = 0; i < wet.size(); ++i)
     D[i] = water::hydro_axes(s.hydro.axes, wet[i], ws.state.bodies[wet[i].body]);
   for (std::size_t i = 0; i < wet.size(); ++i)
-    for (const int j : s.hydro.links[i].partners) {
-      Matrix6 block = added_mass(s, ws.state, wet[i], wet[j]);
+    for (const int partner : s.hydro.partners[i]) {
+      const auto j = static_cast<std::size_t>(partner);
+      Matrix6 block = hydro_pair(s, ws.state, i, j).inertia;
       turn_columns(D[j], forces(wet[j]), block);
       turn_rows(D[i], forces(wet[i]), block);
       visit(wet[i].body, wet[j].body, block);

@@ -33,8 +33,9 @@ void number(System& s) {
     list.z0 = s.z0 + s.n_z;
     s.n_z += static_cast<Index>(list.laws->unknowns.size());
   }
-  s.memory0 = s.hydro.z0 = s.z0 + s.n_z;
-  s.n_z += s.hydro.n_states;
+  s.hydro.z0 = s.z0 + s.n_z;
+  s.n_z += s.hydro.n_states();
+  s.memory0 = s.z0 + s.n_z - s.hydro.visit([](const auto& rung) { return rung.n_condensed(); });
   s.states = declare(s).states;
   s.lambda0 = s.z0 + s.n_z;
   s.n_rows = 0;

@@ -32,17 +32,20 @@ struct HydroBody {
   bool turned = false;                            ///< yaw != 0
   std::array<int, 6> moving{}; ///< index in U of each of the six coordinates; -1: fixed
   bool moves = false;
-  int table = -1; ///< index in HydroData::tables; -1: added mass does not depend on the pose
+  int table = -1; ///< index in AddedMass::tables; -1: added mass does not depend on the pose
   int n_moving() const {
     return 6 - static_cast<int>(std::count(moving.begin(), moving.end(), -1));
   }
   /// Six components of a body from the moving ones of all bodies; fixed ones are zero.
-  template <class S> Vec6<S> gather(const VecX<S>& moving_of_all) const {
+  template <class S> Vec6<S> gather(const S* moving_of_all) const {
     Vec6<S> out = Vec6<S>::Zero();
     for (int c = 0; c < 6; ++c)
       if (const int u = moving[static_cast<std::size_t>(c)]; u >= 0)
         out[c] = moving_of_all[u];
     return out;
+  }
+  template <class S> Vec6<S> gather(const VecX<S>& moving_of_all) const {
+    return gather<S>(moving_of_all.data());
   }
   int first_moving() const {
     return *std::find_if(moving.begin(), moving.end(), [](int u) { return u >= 0; });

@@ -94,12 +94,12 @@ struct PoseAxis {
   }
 };
 
-/// Tables of one body. Rows are all six loads; columns of fixed coordinates are zero.
+/// Added mass of one body over its pose. Rows are all six loads; columns of fixed coordinates are
+/// zero.
 struct PoseTable {
   int hydro_body = 0;
   PoseAxis axis;
   std::vector<Matrix6> added_mass; ///< added mass at each pose
-  std::vector<Matrix6> damping;    ///< damping at each pose; empty: no damping
   int first_weight = 0;            ///< index in the weights of all tables
 };
 

@@ -26,7 +26,7 @@ MatrixX dense(const system::Pattern& p, const std::vector<double>& values) {
 void compare(const system::Regime& s, const integrate::RungeKutta& rk, test::Random& random) {
   constexpr double h = 0.03;
   const system::Pattern whole = system::find_pattern(s), less = linalg::condensed(s, whole);
-  const Index stages = rk.stages, first = s.hydro.z0, n_states = s.hydro.n_states;
+  const Index stages = rk.stages, first = s.hydro.z0, n_states = s.hydro.n_states();
   system::JacobianWorkspace ws(s);
   system::JacobianParts all(whole), some(less);
   integrate::StageMemory memory(s);

@@ -280,7 +280,7 @@ TEST_CASE("a long history forgets what is older than the memory") {
   scene.hydro->memory_length = 10.0;
   const system::System built = build::build(scene);
   const system::Regime s(built);
-  CHECK(s.hydro.convolution.length == doctest::Approx(10.0));
+  CHECK(s.hydro.as<water::Convolution>().length == doctest::Approx(10.0));
   system::History all(s), late(s);
   VectorX y, yp;
   for (int k = 0; k <= 4000; ++k) {
@@ -324,7 +324,7 @@ TEST_CASE("steps are limited to the delay and to what the history carries") {
   options.end_time = 100.0;
   options.rtol = 1e-6;
   CHECK(contains(system::limit_steps(s, options), "steps are at most"));
-  CHECK(options.max_step * s.hydro.convolution.frequency == doctest::Approx(0.9));
+  CHECK(options.max_step * s.hydro.as<water::Convolution>().frequency == doctest::Approx(0.9));
   s.delays.push_back({0, 0.05});
   CHECK(contains(system::limit_steps(s, options), "the shortest delay"));
   CHECK(options.max_step == doctest::Approx(0.045));
