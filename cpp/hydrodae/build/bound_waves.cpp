@@ -56,7 +56,7 @@ void add_bound_waves(const model::Scene& scene, Sea& sea) {
     return;
   const sea::BoundWaves bound = sea::bound_waves(
       below, water.depth, water.gravity, static_cast<std::size_t>(scene.sea.second_order_terms));
-  sea.field.terms.insert(sea.field.terms.end(), bound.terms.begin(), bound.terms.end());
+  sea.field.terms.append(bound.terms);
   sea.note +=
       "; Morison elements and lines feel the " +
       std::to_string(std::min(bound.all, static_cast<std::size_t>(scene.sea.second_order_terms))) +

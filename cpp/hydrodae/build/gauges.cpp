@@ -23,7 +23,7 @@ void add_gauges(const model::Scene& scene, const Sea& sea, system::System& s) {
   if (!scene.gauges.empty())
     s.gauged = sea.field;
   if (sea.second) {
-    s.gauged.terms.resize(sea.all.size()); // all bound waves, in place of the largest
+    s.gauged.terms.keep(sea.all.size()); // all bound waves, in place of the largest
     s.gauged.second = sea.second;
   }
   if (!sea.note.empty())

@@ -97,7 +97,7 @@ void add_morison(const model::Scene& scene, const Sea& sea, system::System& s) {
     s.notes.push_back(
         "Morison elements: every evaluation sums " + std::to_string(sea.all.size()) +
         " wave components at " + std::to_string(pieces) + " points that move, about " +
-        number_text(0.015 * static_cast<double>(sea.all.size()) * static_cast<double>(pieces)) +
+        number_text(0.0015 * static_cast<double>(sea.all.size()) * static_cast<double>(pieces)) +
         " us");
 }
 

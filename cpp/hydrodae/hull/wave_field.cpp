@@ -4,12 +4,10 @@
 #include <array>
 
 #include "hydrodae/core/error.h"
-#include "hydrodae/hull/cos_sin.h"
 
 namespace hydrodae::hull {
 namespace {
 
-constexpr int block_size = 64; ///< points at a time: all sums stay in the first cache
 using Block = Eigen::Array<double, block_size, 1>;
 
 /// A block of a list, its end filled with the last point.
@@ -52,42 +50,11 @@ Height height(const Water& water, const Surface& surface, const Block& z) {
   return {(z - surface.eta) * shrink, by_eta * surface.by_x, by_eta * surface.by_y, shrink};
 }
 
-/// Sums over the components: q = sum A f cos th, the potential's first and second derivatives.
-struct Sums {
-  Block q = Block::Zero(), q_x = Block::Zero(), q_y = Block::Zero(), q_s = Block::Zero();
-  Block u = Block::Zero(), v = Block::Zero(), w = Block::Zero();
-  Block xx = Block::Zero(), xy = Block::Zero(), yy = Block::Zero();
-  Block xs = Block::Zero(), ys = Block::Zero(), ss = Block::Zero();
-};
+/// The fields of a set at a block of points.
+using Fields = Eigen::Array<double, block_size, set_size>;
 
-/// Columns of complex amplitudes, real and imaginary part: of the elevation; of e^{ks} and e^{-ks}
-/// in q; of both in the potential.
-enum Part {
-  elevation_part = 0,
-  up_part = 2,
-  back_part = 4,
-  up_flow = 6,
-  back_flow = 8,
-  parts = 10
-};
-
-/// Re and Im of a e^{-i angle}; Im is the derivative of Re by the angle.
-struct Turned {
-  Block re, im;
-};
-Turned turned(const WaveView& view, std::size_t node, int part, const Block& c, const Block& s) {
-  const auto j = static_cast<Eigen::Index>(node);
-  const double re = view.nodes(j, part), im = view.nodes(j, part + 1);
-  return {re * c + im * s, im * c - re * s};
-}
-
-void add(const WaveView& view, const Node& node, std::size_t j, const Block& c, const Block& s,
-         Surface& surface) {
-  const Turned wave = turned(view, j, elevation_part, c, s);
-  surface.eta += wave.re;
-  surface.by_x += node.kx * wave.im;
-  surface.by_y += node.ky * wave.im;
-}
+/// Length of a block, in whole registers of any instruction set.
+int padded(int size) { return (size + 2 * lanes - 1) / (2 * lanes) * (2 * lanes); }
 
 } // namespace
 
@@ -106,184 +73,148 @@ WaveField::WaveField(const Water& water, const std::vector<Wave>& waves, double 
   // standard deviations.
   const double crest =
       water.stretching == Stretching::wheeler ? std::min(most, 8.0 * std::sqrt(0.5 * square)) : 0.0;
-  waves_ = make_nodes(waves, reach + crest);
+  basis_ = make_basis(waves, reach + crest, finite_);
+  const auto list = [&](const auto& of) {
+    std::vector<double> out;
+    for (const Wave& w : basis_.waves)
+      out.push_back(of(w));
+    return out;
+  };
+  const auto x = [](const Wave& w) { return w.wavenumber * std::cos(w.heading); };
+  const auto y = [](const Wave& w) { return w.wavenumber * std::sin(w.heading); };
+  const auto speed = [&](const Wave& w) { return water.gravity / w.omega; };
+  const auto mirror = [&](const Wave& w) { return std::exp(-2.0 * w.wavenumber * water.depth); };
+  const auto k = [](const Wave& w) { return w.wavenumber; };
+  lists_ = {list([](const Wave& w) { return w.omega; }),
+            list([](const Wave& w) { return w.phase; }),
+            list(k),
+            list(x),
+            list(y),
+            list([](const Wave& w) { return w.amplitude; }),
+            list([&](const Wave& w) { return 1.0 / (1.0 + mirror(w)); }),
+            list(mirror)};
+  for (const Wave& w : waves)
+    steep_ += std::abs(w.amplitude) * w.wavenumber;
+  most_ = most;
+  // Derivatives of q = Re(A e^{kc}), A e^{-ks} included, and those of the potential Re(i g/w A
+  // e^{kc}): the first ones and d2/ds2, then the others.
+  const auto one = list([](const Wave&) { return 1.0; });
+  const auto flow = [&](const auto& a, const auto& b) {
+    return list([&](const Wave& w) { return speed(w) * a(w) * b(w); });
+  };
+  const auto unit = [](const Wave&) { return 1.0; };
+  sets_[surface_set] = {{one, lists_.kx, lists_.ky, {}}, {0, -1, -1, 0}, {}};
+  sets_[pressure_set] = {
+      {one, lists_.kx, lists_.ky, lists_.k}, {0, -1, -1, 0}, {false, false, false, true}};
+  sets_[flow_set] = {{flow(x, unit), flow(y, unit), flow(k, unit), flow(k, k)},
+                     {0, 0, 1, 1},
+                     {false, false, true, false}};
+  sets_[flow_slope_set] = {
+      {flow(x, x), flow(x, y), flow(x, k), flow(y, k)}, {-1, -1, 0, 0}, {false, false, true, true}};
 }
 
 WaveView WaveField::make_view() const {
-  const auto n = static_cast<Eigen::Index>(waves_.waves.size());
-  const auto m = static_cast<Eigen::Index>(waves_.nodes.size());
-  const std::size_t stored = water_.stretching == Stretching::wheeler
-                                 ? waves_.nodes.size() * static_cast<std::size_t>(block_size)
-                                 : 0;
   WaveView view;
-  view.waves.setZero(n, parts);
-  view.nodes.setZero(m, parts);
-  const Eigen::Index padded = (n + block_size - 1) / block_size * block_size;
-  view.angle.setZero(padded);
-  view.cosine.resize(padded);
-  view.sine.resize(padded);
-  view.cosines.resize(stored);
-  view.sines.resize(stored);
+  const std::size_t parts = 2 * basis_.waves.size();
+  view.waves.surface.resize(parts);
+  view.waves.up.resize(parts);
+  view.waves.back.resize(parts);
+  view.scratch.resize(static_cast<std::size_t>(moment_scratch(basis_)));
+  for (Moments& of_set : view.moments)
+    of_set.resize(moment_size(basis_, finite_));
   return view;
 }
 
-void WaveField::look(const Instant& instant, const Vector3& origin, WaveView& view) const {
+void WaveField::look(const Instant& instant, const Vector3& origin, WaveView& view,
+                     bool gradients) const {
   const bool below =
       water_.stretching == Stretching::vertical || water_.stretching == Stretching::none;
   view.height = below ? std::min(origin[2], 0.0) : origin[2];
-  view.here = view.most = view.steep = 0.0;
-  const auto n = static_cast<Eigen::Index>(waves_.waves.size());
-  for (Eigen::Index j = 0; j < n; ++j) {
-    const Wave& w = waves_.waves[static_cast<std::size_t>(j)];
-    const double along = std::cos(w.heading) * origin[0] + std::sin(w.heading) * origin[1];
-    view.angle[j] = std::remainder(w.omega * instant.time + w.phase - w.wavenumber * along, 2 * pi);
+  view.most = instant.growth * most_;
+  view.steep = instant.growth * steep_;
+  Amplitudes& waves = view.waves;
+  find_amplitudes(lists_, instant.time, instant.growth, origin, view.height, finite_, waves);
+  const double *up = waves.up.data(), *back = finite_ ? waves.back.data() : nullptr;
+  const int fields = gradients ? set_size : 1;
+  const auto find = [&](Set set, int n, const double* with_up, const double* with_back) {
+    find_moments(basis_, sets_[set], n, with_up, with_back, view.scratch.data(), view.moments[set]);
+  };
+  if (water_.stretching != Stretching::none)
+    find(surface_set, fields, waves.surface.data(), nullptr);
+  find(pressure_set, fields, up, back);
+  if (water_.bernoulli) {
+    find(flow_set, set_size, up, back);
+    if (gradients)
+      find(flow_slope_set, set_size, up, back);
   }
-  for (Eigen::Index j = 0; j < view.angle.size(); j += block_size) {
-    Block c, s; // of fixed size: no allocation
-    cos_sin(Block(view.angle.segment<block_size>(j)), c, s);
-    view.cosine.segment<block_size>(j) = c;
-    view.sine.segment<block_size>(j) = s;
-  }
-  for (Eigen::Index j = 0; j < n; ++j) {
-    const Wave& w = waves_.waves[static_cast<std::size_t>(j)];
-    const double k = w.wavenumber, a = w.amplitude * instant.growth;
-    // f(s) = (e^{ks} + e^{-k(s + 2d)}) / (1 + e^{-2kd})
-    const double d = water_.depth, whole = 1.0 + std::exp(-2.0 * k * d);
-    const double up = std::exp(k * view.height) / whole;
-    const double back = finite_ ? std::exp(-k * (2.0 * d + view.height)) / whole : 0.0;
-    const double speed = water_.gravity / w.omega;
-    const double re = a * view.cosine[j], im = a * view.sine[j];
-    const std::array<double, 5> factors{1.0, up, back, speed * up, speed * back};
-    for (int part = 0; part < 5; ++part) {
-      view.waves(j, 2 * part) = factors[static_cast<std::size_t>(part)] * re;
-      view.waves(j, 2 * part + 1) = factors[static_cast<std::size_t>(part)] * im;
-    }
-    view.here += re;
-    view.most += std::abs(a);
-    view.steep += std::abs(a) * k;
-  }
-  for (const Band& band : waves_.bands)
-    for (int part = 0; part < parts; ++part) {
-      const auto from = view.waves.col(part).segment(band.first_wave, band.waves);
-      auto to = view.nodes.col(part).segment(band.first_node, band.nodes);
-      if (band.weights.size() == 0)
-        to = from;
-      else
-        for (int i = 0; i < band.nodes; ++i)
-          to[i] = (band.weights.col(i).array() * from).sum();
-    }
 }
 
 double WaveField::highest(const WaveView& view, double radius) const {
   if (water_.stretching == Stretching::none)
     return 0.0;
-  return std::min(view.most, std::abs(view.here) + view.steep * radius);
+  return std::min(view.most, std::abs(view.waves.here) + view.steep * radius);
 }
 
 void WaveField::elevation(const WaveView& view, const PointLists& points,
                           const FieldLists& out) const {
+  const std::array<double*, 3> lists{out.value, out.by_x, out.by_y};
   if (water_.stretching == Stretching::none) {
-    for (double* list : {out.value, out.by_x, out.by_y})
+    for (double* list : lists)
       if (list)
         std::fill_n(list, points.size, 0.0);
     return;
   }
+  Fields sum;
   for (int first = 0; first < points.size; first += block_size) {
     const Block x = read(points.x, first, points.size), y = read(points.y, first, points.size);
-    Surface surface;
-    Block c, s;
-    for (std::size_t j = 0; j < waves_.nodes.size(); ++j) {
-      const Node& node = waves_.nodes[j];
-      const Block angle = node.kx * x + node.ky * y;
-      cos_sin(angle, c, s);
-      add(view, node, j, c, s, surface);
-    }
-    write(surface.eta, first, points.size, out.value);
-    write(surface.by_x, first, points.size, out.by_x);
-    write(surface.by_y, first, points.size, out.by_y);
+    const int size = padded(std::min(block_size, points.size - first));
+    sum_fields(basis_, view.moments[surface_set], false, out.by_x ? set_size : 1,
+               {size, x.data(), y.data()}, sum.data());
+    for (int i = 0; i < 3; ++i)
+      if (double* list = lists[static_cast<std::size_t>(i)])
+        write(sum.col(i), first, points.size, list);
   }
 }
 
-template <bool gradient, bool bernoulli, bool finite>
-void WaveField::pressure_of_block(WaveView& view, const PointLists& points, int first,
+template <bool gradient, bool bernoulli>
+void WaveField::pressure_of_block(const WaveView& view, const PointLists& points, int first,
                                   const FieldLists& out) const {
   const Block x = read(points.x, first, points.size), y = read(points.y, first, points.size);
-  const bool wheeler = water_.stretching == Stretching::wheeler;
-  Block c, s;
+  const int size = padded(std::min(block_size, points.size - first));
+  Fields sum, flow, slope;
   Surface surface;
-  if (wheeler) // the height s needs the elevation first
-    for (std::size_t j = 0; j < waves_.nodes.size(); ++j) {
-      const Node& node = waves_.nodes[j];
-      const Block angle = node.kx * x + node.ky * y;
-      cos_sin(angle, c, s);
-      Block::Map(view.cosines.data() + j * block_size) = c;
-      Block::Map(view.sines.data() + j * block_size) = s;
-      add(view, node, j, c, s, surface);
-    }
-  const Height at = height(water_, surface, read(points.z, first, points.size));
-  const Block rise = at.s - view.height;
-  Sums sum;
-  for (std::size_t j = 0; j < waves_.nodes.size(); ++j) {
-    const auto [k, kx, ky] = waves_.nodes[j];
-    if (wheeler) {
-      c = Block::Map(view.cosines.data() + j * block_size);
-      s = Block::Map(view.sines.data() + j * block_size);
-    } else {
-      const Block angle = kx * x + ky * y;
-      cos_sin(angle, c, s);
-    }
-    const Block e = (k * rise).exp();
-    Block back;
-    if constexpr (finite)
-      back = 1.0 / e;
-    // Sum and difference of the parts with e^{ks} and e^{-ks}: the difference is d/ds over k.
-    const auto add_up = [&](int up, int down, Turned& plus, Turned& minus) {
-      plus = turned(view, j, up, c, s);
-      plus.re *= e;
-      plus.im *= e;
-      minus = plus;
-      if constexpr (finite) {
-        const Turned other = turned(view, j, down, c, s);
-        plus.re += back * other.re;
-        plus.im += back * other.im;
-        minus.re -= back * other.re;
-        minus.im -= back * other.im;
-      }
-    };
-    Turned plus, minus;
-    add_up(up_part, back_part, plus, minus);
-    sum.q += plus.re;
+  if (water_.stretching == Stretching::wheeler) { // the height s needs the elevation first
+    sum_fields(basis_, view.moments[surface_set], false, gradient ? set_size : 1,
+               {size, x.data(), y.data()}, sum.data());
+    surface.eta = sum.col(0);
     if constexpr (gradient) {
-      sum.q_x += kx * plus.im;
-      sum.q_y += ky * plus.im;
-      sum.q_s += k * minus.re;
-    }
-    if constexpr (bernoulli) {
-      add_up(up_flow, back_flow, plus, minus);
-      sum.u += kx * plus.re;
-      sum.v += ky * plus.re;
-      sum.w -= k * minus.im;
-      if constexpr (gradient) {
-        sum.xx += (kx * kx) * plus.im;
-        sum.xy += (kx * ky) * plus.im;
-        sum.yy += (ky * ky) * plus.im;
-        sum.xs += (k * kx) * minus.re;
-        sum.ys += (k * ky) * minus.re;
-        sum.ss -= (k * k) * plus.im;
-      }
+      surface.by_x = sum.col(1);
+      surface.by_y = sum.col(2);
     }
   }
+  const Height at = height(water_, surface, read(points.z, first, points.size));
+  const Block rise = at.s - view.height;
+  const PointBlock block{size, x.data(), y.data(), rise.data()};
+  const auto add_up = [&](Set set, int fields, Fields& to) {
+    sum_fields(basis_, view.moments[set], finite_, fields, block, to.data());
+  };
+  add_up(pressure_set, gradient ? set_size : 1, sum);
   const double rho = water_.density, weight = rho * water_.gravity;
-  Block p = weight * sum.q;
-  if constexpr (bernoulli)
-    p -= (0.5 * rho) * (sum.u.square() + sum.v.square() + sum.w.square());
+  Block p = weight * sum.col(0);
+  if constexpr (bernoulli) {
+    add_up(flow_set, set_size, flow);
+    p -= (0.5 * rho) * (flow.col(0).square() + flow.col(1).square() + flow.col(2).square());
+  }
   write(p, first, points.size, out.value);
   if constexpr (gradient) {
-    Block p_x = weight * sum.q_x, p_y = weight * sum.q_y, p_s = weight * sum.q_s;
+    Block p_x = weight * sum.col(1), p_y = weight * sum.col(2), p_s = weight * sum.col(3);
     if constexpr (bernoulli) {
-      p_x -= rho * (sum.u * sum.xx + sum.v * sum.xy + sum.w * sum.xs);
-      p_y -= rho * (sum.u * sum.xy + sum.v * sum.yy + sum.w * sum.ys);
-      p_s -= rho * (sum.u * sum.xs + sum.v * sum.ys + sum.w * sum.ss);
+      add_up(flow_slope_set, set_size, slope);
+      const auto u = flow.col(0), v = flow.col(1), w = flow.col(2), ss = flow.col(3);
+      const auto xx = slope.col(0), xy = slope.col(1), xs = slope.col(2), ys = slope.col(3);
+      p_x -= rho * (u * xx + v * xy + w * xs);
+      p_y -= rho * (u * xy - v * (xx + ss) + w * ys); // no divergence
+      p_s -= rho * (u * xs + v * ys + w * ss);
     }
     write(p_x + p_s * at.by_x, first, points.size, out.by_x);
     write(p_y + p_s * at.by_y, first, points.size, out.by_y);
@@ -291,18 +222,14 @@ void WaveField::pressure_of_block(WaveView& view, const PointLists& points, int 
   }
 }
 
-void WaveField::pressure(WaveView& view, const PointLists& points, const FieldLists& out) const {
-  const auto block = [&]<bool finite>() {
-    if (out.by_x)
-      return water_.bernoulli ? &WaveField::pressure_of_block<true, true, finite>
-                              : &WaveField::pressure_of_block<true, false, finite>;
-    return water_.bernoulli ? &WaveField::pressure_of_block<false, true, finite>
-                            : &WaveField::pressure_of_block<false, false, finite>;
-  };
-  const auto chosen =
-      finite_ ? block.template operator()<true>() : block.template operator()<false>();
+void WaveField::pressure(const WaveView& view, const PointLists& points,
+                         const FieldLists& out) const {
+  const auto of_block = out.by_x ? (water_.bernoulli ? &WaveField::pressure_of_block<true, true>
+                                                     : &WaveField::pressure_of_block<true, false>)
+                                 : (water_.bernoulli ? &WaveField::pressure_of_block<false, true>
+                                                     : &WaveField::pressure_of_block<false, false>);
   for (int first = 0; first < points.size; first += block_size)
-    (this->*chosen)(view, points, first, out);
+    (this->*of_block)(view, points, first, out);
 }
 
 } // namespace hydrodae::hull

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "hydrodae/core/types.h"
-#include "hydrodae/hull/wave_nodes.h"
+#include "hydrodae/hull/wave_kernels.h"
 
 namespace hydrodae::hull {
 
@@ -48,14 +48,16 @@ struct FieldLists {
   double *by_x = nullptr, *by_y = nullptr, *by_z = nullptr; ///< [-] or [Pa/m]
 };
 
+/// Sets of fields that are summed together.
+enum Set { surface_set = 0, pressure_set, flow_set, flow_slope_set, set_count };
+
 /// The waves at one instant, seen from one point, and scratch.
 struct WaveView {
-  double height = 0.0;                        ///< height that the nodes' e^{+-ks} refer to [m]
-  double here = 0.0, most = 0.0, steep = 0.0; ///< eta at the origin, sum |A| [m], sum |A| k [-]
-  Eigen::ArrayXXd waves;                      ///< (waves, 10): parts of the complex amplitudes ...
-  Eigen::ArrayXXd nodes;                      ///< (nodes, 10): ... in the order of `Part`
-  Eigen::ArrayXd angle, cosine, sine;         ///< angles of the waves, padded to blocks
-  std::vector<double> cosines, sines;         ///< cosines and sines of a block of points, by node
+  double height = 0.0;            ///< height that the parts e^{+-ks} refer to [m]
+  double most = 0.0, steep = 0.0; ///< sum |A| [m], sum |A| k [-]
+  Amplitudes waves;
+  std::array<Moments, set_count> moments;
+  std::vector<double> scratch;
 };
 
 class WaveField {
@@ -68,36 +70,40 @@ public:
   explicit WaveField(const Water& water) : WaveField(water, {}, INFINITY) {}
 
   const Water& water() const { return water_; }
-  bool still() const { return waves_.waves.empty(); }
+  bool still() const { return basis_.waves.empty(); }
   double reach() const { return reach_; }
 
-  /// Plane waves that are evaluated at each point (wave_nodes.h).
-  int nodes() const { return static_cast<int>(waves_.nodes.size()); }
+  /// Complex functions that are evaluated at each point (wave_basis.h).
+  int terms() const { return basis_.terms(); }
 
   /// A view large enough for this field.
   WaveView make_view() const;
 
-  /// Moves a view to another time and origin, in world axes.
-  void look(const Instant& instant, const Vector3& origin, WaveView& view) const;
+  /// Moves a view to another time and origin, in world axes; without `gradients` it has none.
+  void look(const Instant& instant, const Vector3& origin, WaveView& view,
+            bool gradients = true) const;
 
   /// Bound of |eta| at all points not farther than `radius` [m] from the origin of the view.
   double highest(const WaveView& view, double radius) const;
 
-  /// eta, d eta/dx, d eta/dy; z is not read.
+  /// eta and, unless they are null, d eta/dx and d eta/dy; z is not read.
   void elevation(const WaveView& view, const PointLists& points, const FieldLists& out) const;
 
   /// Dynamic pressure at points, and its gradient by the world coordinates of the points. The
   /// fields are continued through the bed.
-  void pressure(WaveView& view, const PointLists& points, const FieldLists& out) const;
+  void pressure(const WaveView& view, const PointLists& points, const FieldLists& out) const;
 
 private:
-  template <bool gradient, bool bernoulli, bool finite>
-  void pressure_of_block(WaveView& view, const PointLists& points, int first,
+  template <bool gradient, bool bernoulli>
+  void pressure_of_block(const WaveView& view, const PointLists& points, int first,
                          const FieldLists& out) const;
   Water water_;
   double reach_;
   bool finite_ = false; ///< true: the bed affects a wave
-  WaveNodes waves_;
+  double most_ = 0.0, steep_ = 0.0;
+  WaveBasis basis_;
+  WaveLists lists_;
+  std::array<FieldSet, set_count> sets_;
 };
 
 } // namespace hydrodae::hull

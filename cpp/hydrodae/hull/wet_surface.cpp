@@ -16,7 +16,7 @@ void turn(const Columns& in, const Matrix3& R, Columns& out) {
 }
 
 /// Elevation at the vertices of all triangles that may cross the surface.
-void find_elevations(const Mesh& mesh, const WaveField& field, Workspace& work) {
+void find_elevations(const Mesh& mesh, const WaveField& field, bool slides, Workspace& work) {
   const double highest = field.highest(work.view, mesh.radius);
   work.needed.clear();
   std::fill(work.is_needed.begin(), work.is_needed.end(), 0);
@@ -40,7 +40,8 @@ void find_elevations(const Mesh& mesh, const WaveField& field, Workspace& work) 
       work.needed_place(i, j) = work.place(work.needed[static_cast<std::size_t>(i)], j);
   Columns &in = work.needed_place, &out = work.needed_surface;
   field.elevation(work.view, {n, in.col(0).data(), in.col(1).data(), nullptr},
-                  {out.col(0).data(), out.col(1).data(), out.col(2).data(), nullptr});
+                  {out.col(0).data(), slides ? out.col(1).data() : nullptr,
+                   slides ? out.col(2).data() : nullptr, nullptr});
   // Elsewhere the side of a vertex does not depend on the elevation.
   work.surface.setZero();
   for (int i = 0; i < n; ++i)
@@ -203,8 +204,8 @@ void find_wet_surface(const Mesh& mesh, const WaveField& field, const Pose& pose
   // Without waves the pressure is linear on both sides of z = 0.
   const bool kink = !field.still() && field.water().stretching == Stretching::vertical;
   if (!field.still()) {
-    field.look(instant, pose.position, work.view);
-    find_elevations(mesh, field, work);
+    field.look(instant, pose.position, work.view, slides);
+    find_elevations(mesh, field, slides, work);
   }
   find_sides(mesh, kink, work);
   add_edges(mesh, work);

@@ -24,9 +24,6 @@ namespace hydrodae::sea {
 
 class SecondOrder;
 
-/// Second-order elevation of all bound waves, without the ramp [m].
-double second_elevation(const SecondOrder& second, double t, double x, double y);
-
 /// Current at one height.
 struct Layer {
   double z = 0.0;                     ///< [m]
@@ -36,8 +33,9 @@ struct Layer {
 /// Layers of rows z [m], speed [m/s], heading [deg].
 std::vector<Layer> layers(const std::vector<Vector3>& rows);
 
-/// The sea as a field in space and time; without terms the water moves with the current alone.
-struct WaveField {
+/// Plane waves in groups that one vector of numbers, or a few, takes at once.
+class WaveTerms {
+public:
   struct Term {
     double omega = 0.0, wavenumber = 0.0, phase = 0.0; ///< [rad/s], [rad/m], [rad]
     /// Cosine and sine of the direction of travel
@@ -46,38 +44,46 @@ struct WaveField {
     double reflection = 0.0; ///< e^{-2kh}; 0 in deep water
     double speed = 0.0;      ///< a w / (1 - e^{-2kh}) [m/s]
   };
+  static constexpr std::size_t lanes = 8;
+  /// Numbers of the terms of a group, in the order of `Term`; those behind the last term are zero.
+  struct Group {
+    double omega[lanes], wavenumber[lanes], phase[lanes], cosine[lanes], sine[lanes],
+        amplitude[lanes], reflection[lanes], speed[lanes];
+    std::size_t count; ///< of terms
+  };
+
+  std::size_t size() const {
+    return groups_.empty() ? 0 : lanes * (groups_.size() - 1) + groups_.back().count;
+  }
+  bool empty() const { return groups_.empty(); }
+  void clear() { groups_.clear(); }
+  void push_back(const Term& term);
+  void append(const std::vector<Term>& terms);
+  void keep(std::size_t size); ///< leaves out the terms behind the first ones
+  void set_phase(std::size_t i, double phase);
+  Term operator[](std::size_t i) const;
+  const std::vector<Group>& groups() const { return groups_; }
+
+private:
+  std::vector<Group> groups_;
+};
+
+/// The sea as a field in space and time; without terms the water moves with the current alone.
+struct WaveField {
+  using Term = WaveTerms::Term;
   double depth = INFINITY, ramp = 0.0; ///< h [m], growth at the start [s]
   Vector3 current = Vector3::Zero();   ///< [m/s]
   std::vector<Layer> profile;          ///< downwards, in place of `current`; empty: uniform
-  std::vector<Term> terms;
+  WaveTerms terms;
   std::shared_ptr<const SecondOrder> second; ///< added by `elevation`; null in a first-order sea
 
   WaveField() = default;
   WaveField(const std::vector<Component>& components, double water_depth, double ramp_time,
-            const Vector3& flow)
-      : depth(water_depth), ramp(ramp_time), current(flow) {
-    for (const Component& c : components) {
-      const double kh = c.wavenumber * depth;
-      // Beyond, e^{-kh} is less than what rounding leaves.
-      const double reflection = kh < 40.0 ? std::exp(-2.0 * kh) : 0.0;
-      const double whole = kh < 40.0 ? -std::expm1(-2.0 * kh) : 1.0;
-      terms.push_back({c.omega, c.wavenumber, c.phase, std::cos(c.heading), std::sin(c.heading),
-                       c.amplitude, reflection, c.amplitude * c.omega / whole});
-    }
-  }
+            const Vector3& flow);
 };
 
 /// Elevation at one place and time, with the ramp [m].
-inline double elevation(const WaveField& field, double t, double x, double y) {
-  const double growth = ramp(t, field.ramp);
-  double sum = 0.0;
-  for (const WaveField::Term& w : field.terms)
-    sum +=
-        w.amplitude * std::cos(w.omega * t + w.phase - w.wavenumber * (w.cosine * x + w.sine * y));
-  if (field.second)
-    sum += second_elevation(*field.second, t, x, y);
-  return growth * sum;
-}
+double elevation(const WaveField& field, double t, double x, double y);
 
 /// Current at height z in a profile, and, where `slope` is not null, its derivative by z. The
 /// velocities of the layers are joined by straight lines and constant beyond.
@@ -111,83 +117,55 @@ struct FluidGradient {
   Vector3 elevation;
 };
 
-/// Water at the n points x0 + j dx, j = 0 .. n-1, of a straight line and, unless `gradients` is
-/// null, its derivatives. Each component needs two sines and cosines, then recurrences from point
-/// to point. Allocates nothing.
+/// Adds the waves at a point that is not beneath the bed, and, unless `gradient` is null, their
+/// derivatives. This is the closed form, for dual numbers.
+template <class S>
+void add_waves(const WaveField& field, double t, const Vec3<S>& x, FluidPoint<S>& out,
+               FluidGradient* /*gradient*/) {
+  const double growth = ramp(t, field.ramp);
+  const bool above = x[2] > S(0);
+  for (std::size_t i = 0; i < field.terms.size(); ++i) {
+    const WaveField::Term w = field.terms[i];
+    const double k = w.wavenumber;
+    const S angle = S(w.omega * t + w.phase) - (S(k * w.cosine) * x[0] + S(k * w.sine) * x[1]);
+    const S c = cos(angle), s = sin(angle), e = above ? S(1) : S(exp(S(k) * x[2]));
+    const S back = w.reflection > 0.0 ? S(w.reflection) / e : S(0);
+    const S C = S(growth * w.speed) * (e + back), D = S(growth * w.speed) * (e - back);
+    const S u_h = C * c, a_h = S(-w.omega) * C * s;
+    out.velocity += Vec3<S>(S(w.cosine) * u_h, S(w.sine) * u_h, -(D * s));
+    out.acceleration += Vec3<S>(S(w.cosine) * a_h, S(w.sine) * a_h, S(-w.omega) * D * c);
+    out.elevation += S(growth * w.amplitude) * c;
+  }
+}
+
+/// The same for numbers, many terms at once.
+template <>
+void add_waves<double>(const WaveField& field, double t, const Vector3& x, FluidPoint<double>& out,
+                       FluidGradient* gradient);
+
+/// Water at the n points x0 + j dx, j = 0 .. n-1, of a straight line and, for numbers, unless
+/// `gradients` is null, its derivatives. Allocates nothing.
 template <class S>
 void fluid_on_line(const WaveField& field, double t, const Vec3<S>& x0, const Vec3<S>& dx, int n,
                    FluidPoint<S>* out, FluidGradient* gradients = nullptr) {
-  using std::cos, std::exp, std::sin;
-  const double growth = ramp(t, field.ramp);
-  // Upwards, so that e^{kz} grows from point to point until it stays at 1.
-  const bool down = dx[2] < S(0);
-  const Vec3<S> step = down ? Vec3<S>(-dx) : dx;
-  const Vec3<S> low = down ? Vec3<S>(x0 + S(n - 1) * dx) : x0;
-  const auto place = [&](int j) { return down ? n - 1 - j : j; };
-  int first = 0; // index of the first point above the bed
-  while (first < n && low[2] + S(first) * step[2] < S(-field.depth))
-    ++first;
   for (int j = 0; j < n; ++j) {
-    FluidPoint<S>& p = out[place(j)];
-    p.velocity.setZero();
-    p.acceleration.setZero();
-    p.elevation = S(0);
-    if (gradients)
-      gradients[place(j)] = {Matrix3::Zero(), Matrix3::Zero(), Vector3::Zero()};
-  }
-  for (const WaveField::Term& w : field.terms) {
-    if (growth == 0.0 || first == n)
-      break;
-    const double k = w.wavenumber, kx = k * w.cosine, ky = k * w.sine;
-    const S along = S(kx) * (low[0] + S(first) * step[0]) + S(ky) * (low[1] + S(first) * step[1]);
-    const S angle = S(w.omega * t + w.phase) - along;
-    const S turn = -(S(kx) * step[0] + S(ky) * step[1]);
-    const S turn_c = cos(turn), turn_s = sin(turn);
-    const bool steep = S(k) * step[2] > S(30); // one step spans more than the recurrence bears
-    const S rise = steep ? S(1) : S(exp(S(k) * step[2]));
-    S c = cos(angle), s = sin(angle), e = S(0);
-    for (int j = first; j < n; ++j) {
-      const S z = low[2] + S(j) * step[2];
-      const bool above = z > S(0);
-      e = above ? S(1) : j == first || steep ? S(exp(S(k) * z)) : S(e * rise);
-      const S back = w.reflection > 0.0 ? S(w.reflection) / e : S(0);
-      const S C = S(growth * w.speed) * (e + back), D = S(growth * w.speed) * (e - back);
-      const S u_h = C * c, u_z = -(D * s), a_h = S(-w.omega) * C * s, a_z = S(-w.omega) * D * c;
-      FluidPoint<S>& p = out[place(j)];
-      p.velocity += Vec3<S>(S(w.cosine) * u_h, S(w.sine) * u_h, u_z);
-      p.acceleration += Vec3<S>(S(w.cosine) * a_h, S(w.sine) * a_h, a_z);
-      p.elevation += S(growth * w.amplitude) * c;
-      if constexpr (std::is_same_v<S, double>) {
-        if (gradients) {
-          // By th: d/dx = -k cos b d/dth, d/dy = -k sin b d/dth; by z: C' = k S, S' = k C.
-          const Vector3 direction(w.cosine, w.sine, 0.0), up(0.0, 0.0, 1.0);
-          const Vector3 by_th_u = -C * s * direction - D * c * up;
-          const Vector3 by_th_a = w.omega * (-C * c * direction + D * s * up);
-          FluidGradient& g = gradients[place(j)];
-          g.velocity -= k * by_th_u * direction.transpose();
-          g.acceleration -= k * by_th_a * direction.transpose();
-          g.elevation += k * growth * w.amplitude * s * direction;
-          if (!above) {
-            g.velocity.col(2) += k * (D * c * direction - C * s * up);
-            g.acceleration.col(2) -= k * w.omega * (D * s * direction + C * c * up);
-          }
-        }
-      }
-      const S turned = c * turn_c - s * turn_s;
-      s = s * turn_c + c * turn_s;
-      c = turned;
+    const Vec3<S> x = x0 + S(j) * dx;
+    out[j] = {Vec3<S>::Zero(), Vec3<S>::Zero(), S(0)};
+    FluidGradient* gradient = gradients ? gradients + j : nullptr;
+    if (gradient)
+      *gradient = {Matrix3::Zero(), Matrix3::Zero(), Vector3::Zero()};
+    if (x[2] < S(-field.depth))
+      continue;
+    if (!field.terms.empty())
+      add_waves<S>(field, t, x, out[j], gradient);
+    if (field.profile.empty()) {
+      out[j].velocity += field.current.template cast<S>();
+      continue;
     }
-  }
-  if (field.profile.empty()) {
-    for (int j = first; j < n; ++j)
-      out[place(j)].velocity += field.current.template cast<S>();
-    return;
-  }
-  for (int j = first; j < n; ++j) {
     Vector3 slope;
-    out[place(j)].velocity += current_at<S>(field.profile, low[2] + S(j) * step[2], &slope);
-    if (gradients)
-      gradients[place(j)].velocity.col(2) += slope;
+    out[j].velocity += current_at<S>(field.profile, x[2], &slope);
+    if (gradient)
+      gradient->velocity.col(2) += slope;
   }
 }
 

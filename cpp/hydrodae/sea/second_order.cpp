@@ -158,8 +158,4 @@ double SecondOrder::elevation(double t, double x, double y) const {
   return c.dot(cosines_ * c) + s.dot(sines_ * s);
 }
 
-double second_elevation(const SecondOrder& second, double t, double x, double y) {
-  return second.elevation(t, x, y);
-}
-
 } // namespace hydrodae::sea

@@ -240,8 +240,8 @@ std::shared_ptr<const element::Elements>
 MorisonList::stirred(const std::function<double()>& draw) const {
   auto out = std::make_shared<MorisonList>(*this);
   out->water_.ramp = 0.0;
-  for (sea::WaveField::Term& term : out->water_.terms)
-    term.phase = pi * draw();
+  for (std::size_t i = 0; i < out->water_.terms.size(); ++i)
+    out->water_.terms.set_phase(i, pi * draw());
   return out;
 }
 

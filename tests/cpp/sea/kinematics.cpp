@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include "hydrodae/math/dual.h"
 #include "hydrodae/sea/dispersion.h"
 
 namespace {
@@ -101,4 +102,43 @@ TEST_CASE("points of a line are the points one by one, upwards, downwards, out o
       }
     }
   }
+}
+
+TEST_CASE("many waves at once are the waves one by one in dual numbers, gradients too") {
+  for (double depth : {9.0, 60.0, double(INFINITY)})
+    for (std::size_t count : {1u, 8u, 203u}) {
+      std::vector<sea::Component> components;
+      for (std::size_t j = 0; j < count; ++j) {
+        const double w = 0.3 + 2.7 * (static_cast<double>(j) + 0.5) / static_cast<double>(count);
+        components.push_back({w, sea::wavenumber(w, depth, gravity), 0.1 * static_cast<double>(j),
+                              0.4 / std::sqrt(count),
+                              std::fmod(2.4 * static_cast<double>(j * j), 6.0)});
+      }
+      sea::WaveField field(components, depth, 20.0, Vector3(0.5, 0.1, 0.0));
+      field.terms.push_back({0.0, 0.0, 0.0, 1.0, 0.0, -0.1, 0.0, 0.0}); // a set-down
+      REQUIRE(field.terms.size() == count + 1);
+      for (int i = 0; i < 40; ++i) {
+        const Vector3 x(0.9 * i, -0.7 * i, 1.5 - 0.3 * i);
+        sea::FluidGradient g;
+        const Point own = at(field, 1.3 * i, x, &g);
+        for (int j = 0; j < 3; ++j) {
+          Vec3<Dual> moved = x.cast<Dual>();
+          moved[j].b = 1.0;
+          sea::FluidPoint<Dual> d;
+          sea::fluid_on_line<Dual>(field, 1.3 * i, moved, Vec3<Dual>::Zero(), 1, &d);
+          CHECK(std::abs(d.elevation.a - own.elevation) < 1e-13);
+          CHECK(std::abs(d.elevation.b - g.elevation[j]) < 1e-13);
+          for (int k = 0; k < 3; ++k) {
+            CHECK(std::abs(d.velocity[k].a - own.velocity[k]) < 1e-13);
+            CHECK(std::abs(d.velocity[k].b - g.velocity(k, j)) < 1e-13);
+            CHECK(std::abs(d.acceleration[k].a - own.acceleration[k]) < 1e-13);
+            CHECK(std::abs(d.acceleration[k].b - g.acceleration(k, j)) < 1e-13);
+          }
+        }
+      }
+      field.terms.keep(count);
+      CHECK(field.terms.size() == count);
+      field.terms.keep(count - 1);
+      CHECK(field.terms.size() == count - 1);
+    }
 }

@@ -24,7 +24,7 @@ std::vector<sea::Component> three_waves(double depth, double scale) {
 sea::WaveField with_bound(const std::vector<sea::Component>& waves, double depth) {
   sea::WaveField field(waves, depth, 0.0, Vector3::Zero());
   const sea::BoundWaves bound = sea::bound_waves(waves, depth, pull, 1000);
-  field.terms.insert(field.terms.end(), bound.terms.begin(), bound.terms.end());
+  field.terms.append(bound.terms);
   return field;
 }
 
@@ -99,7 +99,8 @@ TEST_CASE("the terms and the quadratic form are the same elevation") {
   const sea::BoundWaves bound = sea::bound_waves(waves, depth, pull, 1000);
   CHECK(bound.all == 9); // three doubles, three sums, three differences
   CHECK(bound.elevation == 1.0);
-  terms.terms = bound.terms;
+  terms.terms.clear();
+  terms.terms.append(bound.terms);
   for (const double t : {0.0, 4.0, 171.3})
     CHECK(sea::elevation(terms, t, 13.0, -4.0) ==
           doctest::Approx(second.elevation(t, 13.0, -4.0)).epsilon(1e-12));
