@@ -66,21 +66,17 @@ def pools(panels: Array) -> list[Array]:
     Returns
     -------
     list of (m, 4, 3) array
-        One for each pool, normals downwards, into the water.
+        One for each pool, the largest first; normals downwards, into the water.
 
     Raises
     ------
     DatabaseError
-        The water line is not closed, the hull has no pool, or panels would not cover one.
+        The water line is not closed, or panels would not cover a pool.
     """
     loops = sorted(water_line(panels), key=lambda loop: -abs(_shoelace(loop)))
     inner = [loop for loop in loops if _shoelace(loop) * _shoelace(loops[0]) < 0.0]
-    if not inner:
-        raise DatabaseError("the hull has no free surface inside it: no piston").about(
-            "mesh", "pool"
-        )
     made = [_cover([loop], panels, FULL) for loop in inner]
-    if min(share for _, share in made) < FULL:
+    if min((share for _, share in made), default=1.0) < FULL:
         raise DatabaseError(
             "panels would not cover the free surface inside the hull: its water line is neither "
             "a rectangle along x and y nor seen whole from its middle"

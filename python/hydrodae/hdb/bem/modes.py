@@ -57,13 +57,14 @@ def piston(before: int, count: int, after: int) -> Mode:
     return Mode(shape, np.zeros(len(shape)))
 
 
-def by_formula(texts: list[str], centers: Array) -> Mode:
-    """Return the mode whose displacements along x, y, z are formulas of the place.
+def by_formula(text: str, centers: Array) -> Mode:
+    """Return the mode whose displacements are formulas of the place.
 
     Parameters
     ----------
-    texts : list of str
-        Three formulas of x, y, z [m] in the world with pi, + - * / **, and `FUNCTIONS`.
+    text : str
+        Three formulas with commas between them, along x, y and z, or one along z. They have x, y, z
+        [m] in the world, pi, numbers, + - * / ** and `FUNCTIONS`.
     centers : (n, 3) array
         Centres of the panels [m].
 
@@ -72,12 +73,12 @@ def by_formula(texts: list[str], centers: Array) -> Mode:
     CaseError
         A formula cannot be read, or has no finite value at a panel.
     """
-    trees = [_parsed(text) for text in texts]
-    shape = np.stack([_value(*pair, centers) for pair in zip(texts, trees, strict=True)], axis=1)
+    trees = _parsed(text)
+    shape = np.stack([_value(text, tree, centers) for tree in trees], axis=1)
     step = STEP * max(float(np.ptp(centers, axis=0).max()), 1e-6)
     divergence = np.zeros(len(centers))
-    for axis, pair in enumerate(zip(texts, trees, strict=True)):
-        ahead, behind = (_value(*pair, centers + s * np.eye(3)[axis]) for s in (step, -step))
+    for axis, tree in zip(np.eye(3), trees, strict=True):
+        ahead, behind = (_value(text, tree, centers + s * axis) for s in (step, -step))
         divergence += (ahead - behind) / (2.0 * step)
     return Mode(shape, divergence)
 
@@ -124,11 +125,19 @@ def check_names(body: str, names: list[str]) -> None:
             )
 
 
-def _parsed(text: str) -> ast.expr:
+def _parsed(text: str) -> list[ast.expr]:
+    """Trees of the formulas along x, y and z."""
     try:
-        return ast.parse(text.strip(), mode="eval").body
+        tree = ast.parse(text.strip(), mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise CaseError(f"formula {text!r}: cannot be read; write it as 0.5*cos(pi*x/80)") from None
+    if not isinstance(tree, ast.Tuple):
+        return [ast.Constant(0.0), ast.Constant(0.0), tree]
+    if len(tree.elts) != 3:
+        raise CaseError(
+            f"formula {text!r}: expected one formula, along z, or three along x, y and z"
+        )
+    return tree.elts
 
 
 def _value(text: str, tree: ast.expr, places: Array) -> Array:
@@ -147,7 +156,7 @@ def _evaluated(text: str, node: ast.expr, known: dict[str, Array]) -> Array:
         return _evaluated(text, other, known)
 
     match node:
-        case ast.Constant(value=int() | float() as number):
+        case ast.Constant(value=int() | float() as number) if not isinstance(number, bool):
             return np.asarray(float(number))
         case ast.Name(id=name) if name in known:
             return known[name]
