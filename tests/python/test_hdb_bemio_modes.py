@@ -1,4 +1,4 @@
-"""Generalised modes in BEMIO's files: bodies with more than six degrees of freedom."""
+"""Generalised modes in files of BEMIO and WAMIT: bodies with more than six coordinates."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import pytest
 
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.readers.reading import read_source
 
 RHO, GRAVITY, COUNTS = 1000.0, 9.81, (7, 8)
 OMEGA = np.linspace(0.2, 2.0, 12)
@@ -80,3 +81,48 @@ def test_stiffness_of_rigid_motions_alone_is_refused(tmp_path: Path) -> None:
     write(tmp_path / "bemio.h5", columns=6)
     with pytest.raises(DatabaseError, match=r"stiffness has shape \(7, 6\), expected \(7, 15\)"):
         hdb.read(tmp_path / "bemio.h5")
+
+
+POT = """two parts
+ 50.0  HBOT
+ 1 1 IRAD, IDIFF
+ 4 NPER
+ 8.0 4.0 2.0 1.0 PER
+ 1 NBETA
+ 0.0 BETA
+ 2 NBODY
+a.gdf
+ 0.0 0.0 -1.0 0.0 XBODY(1-4)
+ 1 1 1 1 1 1 IMODE(1-6)
+ 1 NEWMDS
+b.gdf
+ 9.0 0.0 -1.0 0.0 XBODY(1-4)
+ 1 1 1 1 1 1 IMODE(1-6)
+ 2 NEWMDS
+"""
+
+
+def test_modes_of_two_bodies_of_wamit(tmp_path: Path) -> None:
+    """The modes of a body follow its rigid motions: modes 1 to 7 and 8 to 15 of the tables."""
+    n, stem = sum(COUNTS), tmp_path / "run"
+    i, j = np.indices((n, n)) + 1
+    added, stiffness = i * j + 1000 * np.eye(n), 100 * i + j
+    stem.with_suffix(".pot").write_text(POT)
+    stem.with_suffix(".cfg").write_text(" IPEROUT=1\n NEWMDS(1) = 1\n NEWMDS(2)=2 (bending)\n")
+    stem.with_suffix(".gdf").write_text("title\n 1.0 9.81 ULEN GRAV\n 0 0\n 0\n")
+    for name in "ab":
+        (tmp_path / f"{name}.gdf").write_text("title\n 1.0 9.81 ULEN GRAV\n 0 0\n 0\n")
+    pairs = [(a, b) for a in range(n) for b in range(n)]
+    one = [f"{t} {a + 1} {b + 1} {added[a, b]} 1" for t in (8, 4, 2, 1) for a, b in pairs]
+    three = [f"{t} 0 {a + 1} {a + 1} 0 {a + 1} 0" for t in (8, 4, 2, 1) for a in range(n)]
+    hst = [f"{a + 1} {b + 1} {stiffness[a, b]}" for a, b in pairs]
+    for suffix, rows in ((".1", one), (".3", three), (".hst", hst)):
+        stem.with_suffix(suffix).write_text("\n".join(["title", *rows]) + "\n")
+    found = read_source(stem.with_suffix(".1"), rho=RHO)
+    assert found.coordinates[6:8] == ("a.mode7", "b.surge")
+    assert found.coordinates[13:] == ("b.mode7", "b.mode8")
+    np.testing.assert_allclose(found.added_mass[0], RHO * added)
+    for name, own in (("a", slice(0, 7)), ("b", slice(7, 15))):
+        np.testing.assert_allclose(
+            found.mode_stiffness[name], RHO * GRAVITY * stiffness[own, own], rtol=1e-12
+        )
