@@ -6,14 +6,18 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 from tests.errors import refused
 from tests.python.hdb_command import call
 
 from hydrodae import hdb
-from hydrodae.errors import CaseError
+from hydrodae.commands.hdb.own_coordinates import with_own_coordinates
+from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.bem import modes, shapes
 from hydrodae.hdb.bem.lids import lid, pools
+from hydrodae.hdb.bem.run import Settings, WettedBody
 from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.preparation import computing
 
 RING = ["--body", "owc=ring:radius=0.5:inner=0.25:draft=1", "--cog", "owc=0,0,0"]
 GRID = ["--rho", "1000", "--gravity", "9.80665", "-q"]
@@ -33,26 +37,28 @@ def column(reference: Path) -> HydroDatabase:
 
 @pytest.mark.slow
 def test_piston_of_wamit(reference: Path, tmp_path: Path) -> None:
-    """A, B and F of the piston at k = 0.3, 0.9, 1.5 and 2.1 1/m are those of test17a within 3 %."""
-    exact = column(reference)
-    at = [2, 8, 14, 19]
-    low, high = exact.omega[[2, 19]]
-    found = compute(
-        tmp_path / "owc.h5", *RING, *GRID, "--piston", "--panel", "0.071",
-        "--omega", f"{low},{high},4",
-    )  # fmt: skip
+    """A77, B77 and F7 of test17a at k = 0.1, 1, 1.5 and 2 1/m, each within 3 %."""
+    pytest.importorskip("capytaine", reason="needs the extra bem")
+    exact, at = column(reference), [0, 9, 14, 19]
+    hull = shapes.ring(0.071, radius=0.5, inner=0.25, draft=1.0)
+    alone = [WettedBody("owc", hull, np.zeros(3))]
+    bodies = with_own_coordinates(alone, pistons=True, formulas=[])
+    settings = Settings(omega=exact.omega[at], rho=1000.0, gravity=9.80665)
+    found, report = computing.compute(bodies, settings, tmp_path)
+    assert report.ok
     i, j = found.coordinates.index("owc.piston"), exact.coordinates.index("test17a.mode7")
     for name in ("added_mass", "radiation_damping"):
-        of_wamit = np.interp(found.omega, exact.omega, getattr(exact, name)[:, j, j])
+        of_wamit = getattr(exact, name)[at, j, j]
         np.testing.assert_allclose(getattr(found, name)[:, i, i], of_wamit, rtol=0.03)
-    assert at
+    force = exact.excitation[at, 0, j]
+    np.testing.assert_allclose(found.excitation[:, 0, i] / force, 1.0, atol=0.03)
 
 
 @pytest.fixture(scope="module")
 def coarse(tmp_path_factory: pytest.TempPathFactory) -> HydroDatabase:
     """The column of test17a with few panels, and its heave by formula as well."""
-    words = [*RING, *GRID, "--piston", "--mode", "owc.lift=1", "--panel", "0.2"]
-    words += ["--omega", "0.99,2.2,4", "--accept", "low-frequencies"]
+    words = [*RING, *GRID, "--piston", "--mode", "owc.lift=1", "--panel", "0.25"]
+    words += ["--omega", "0.9,3.2,5"]
     return compute(tmp_path_factory.mktemp("owc") / "owc.h5", *words)
 
 
@@ -74,37 +80,36 @@ def test_heave_by_formula_is_heave(coarse: HydroDatabase) -> None:
 
 
 def test_few_panels_are_near_wamit(coarse: HydroDatabase, reference: Path) -> None:
+    """At k = 0.08 and 0.22 1/m, where the force on the piston is no small difference."""
     exact = column(reference)
     i, j = coarse.coordinates.index("owc.piston"), exact.coordinates.index("test17a.mode7")
-    for name in ("added_mass", "radiation_damping"):
-        of_wamit = np.interp(coarse.omega, exact.omega, getattr(exact, name)[:, j, j])
-        np.testing.assert_allclose(getattr(coarse, name)[:, i, i], of_wamit, rtol=0.1)
+    for name, error in (("added_mass", 0.04), ("radiation_damping", 0.03)):
+        of_wamit = CubicSpline(exact.omega, getattr(exact, name)[:, j, j])(coarse.omega[:2])
+        np.testing.assert_allclose(getattr(coarse, name)[:2, i, i], of_wamit, rtol=error)
 
 
 def test_pitch_by_formula_is_pitch(tmp_path: Path) -> None:
-    """A hull without a pool: u = e_y x r, and its stiffness without weight."""
-    words = ["--body", "b=box:length=8:width=4:draft=2", "--cog", "b=0,0,0", "--panel", "1"]
-    words += ["--omega", "0.5,2,5", "--mode", "b.turn=z,0,-x", *GRID]
+    """A hull without a pool: u = e_y x r."""
+    words = ["--body", "b=box:length=8:width=4:draft=2", "--cog", "b=0,0,0", "--panel", "1.4"]
+    words += ["--omega", "0.5,2,4", "--mode", "b.turn=z,0,-x", *GRID]
     found = compute(tmp_path / "b.h5", *words)
     pitch, turn = found.coordinates.index("b.pitch"), found.coordinates.index("b.turn")
     for table in (found.added_mass, found.radiation_damping):
         np.testing.assert_allclose(table[:, turn, turn], table[:, pitch, pitch], rtol=1e-6)
     np.testing.assert_allclose(found.excitation[..., turn], found.excitation[..., pitch])
-    stiffness = found.bodies["b"].mode_stiffness
-    assert stiffness is not None
-    # rho g (B L^3/12 - V z_B) without weight
-    closed = 9806.65 * (4.0 * 8.0**3 / 12.0 - 64.0)
-    assert stiffness[6, 6] == pytest.approx(closed, rel=0.01)
 
 
 def test_stiffness_of_a_bending_barge() -> None:
-    """Closed forms of w = cos(2 pi x/L): B L/2, and of its asymmetry with pitch, B d^2 w_tip."""
+    """Closed forms: of w = cos(2 pi x/L) B L/2, of pitch B L^3/12 - V z_B without its weight.
+
+    The end walls turn in pitch: it and another mode differ by int n_x z w dS, B d^2 w_tip.
+    """
     panels = shapes.box(1.0, length=80.0, width=10.0, draft=5.0)
     centers, _ = modes.centers_and_areas(panels)
     bend, tilt = (modes.by_formula(t, centers) for t in ("cos(2*pi*x/80)", "sin(pi*x/80)"))
     k = modes.stiffness(panels, np.zeros(3), [bend, tilt], 1.0, 1.0)
     assert k[6, 6] == pytest.approx(400.0, rel=1e-3)
-    # pressure on the end walls, which turn: int n_x z w dS over both
+    assert k[4, 4] == pytest.approx(10.0 * 80.0**3 / 12.0 - 4000.0 * 2.5, rel=1e-3)
     assert k[7, 4] - k[4, 7] == pytest.approx(250.0, rel=0.01)
 
 
@@ -144,7 +149,7 @@ def test_lids_and_pools_of_a_ring_have_no_slivers(size: float) -> None:
 )
 def test_bad_formulas(tmp_path: Path, words: list[str], message: str) -> None:
     given = [*RING, "--omega", "1,4,4", *words, "-o", str(tmp_path / "x.h5"), "-q"]
-    with pytest.raises(CaseError, match=message):
+    with pytest.raises((CaseError, DatabaseError), match=message):
         call("compute", *given)
 
 
