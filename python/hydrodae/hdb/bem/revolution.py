@@ -101,7 +101,9 @@ def revolution(size: float, profile: ArrayLike, *, graded: bool = False) -> Arra
     for a, b in pairwise(points):
         length = float(np.linalg.norm(b - a))
         if length > 0.0:
-            share = np.linspace(0.0, 1.0, count((0.5 * np.pi if graded else 1.0) * length, size) + 1)
+            share = np.linspace(
+                0.0, 1.0, count((0.5 * np.pi if graded else 1.0) * length, size) + 1
+            )
             share = 0.5 - 0.5 * np.cos(np.pi * share) if graded else share
             share = share[1:, None]
             parts.append(a + share * (b - a))

@@ -242,7 +242,9 @@ def _motions(run: Run, findings: list[Finding]) -> Motions:
     place = (inside - starts[body]).astype(int)
     kept = np.ones(inside.size, dtype=bool) if run.stiffness is not None else place <= 6
     if np.any(place[kept] > 6):
-        text = f"modes {_listed(inside[place > 6])} are generalised: mode7 and so on of their bodies"
+        text = (
+            f"modes {_listed(inside[place > 6])} are generalised: mode7 and so on of their bodies"
+        )
         findings.append(Finding("info", "coordinates", text))
     lost_modes = np.setdiff1d(every, inside[kept])
     if lost_modes.size:
