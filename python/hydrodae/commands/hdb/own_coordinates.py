@@ -20,17 +20,17 @@ def add_own_coordinates(compute: argparse.ArgumentParser) -> None:
     compute.add_argument(
         "--piston",
         action="store_true",
-        help="the free surface inside a hollow body gets panels and a coordinate of its own, "
-        "BODY.piston, its rise against the body [m]; several are piston1, piston2 and so on",
+        help="panels on the free surface inside a hollow body; its rise against the body [m] is the "
+        "coordinate BODY.piston, of several piston1, piston2 and so on",
     )
     compute.add_argument(
         "--mode",
         metavar="BODY.NAME=FORMULA",
         action="append",
         default=[],
-        help="a coordinate of the hull by a formula of the place x, y, z [m]: its rise per unit "
-        "amplitude, as in barge.bend='cos(2*pi*x/80)', or three with commas, along x, y and z. "
-        "May be repeated",
+        help="a coordinate of the hull: its rise per unit amplitude as a formula of the place x, y, "
+        "z [m], as in barge.bend='cos(2*pi*x/80)'. Three with commas are displacements along x, y "
+        "and z. May be repeated",
     )
 
 

@@ -1,10 +1,10 @@
 """Solve one frequency with panels on the free surface inside a hull, which Capytaine 3 gets wrong.
 
-A pool moves as pistons, so its panels lie in z = 0. There dG/dz = K G, K = w^2/g. Capytaine
-integrates the left side by points next to its singularity, and its own influence of such a panel has
-the imaginary part with the wrong sign. Water in a tube multiplies errors by the inverse of the
-solid angle of the mouth. So the matrices are mended, forces follow from the total potential, and
-the damping from the forces of waves from all around.
+A pool moves as a piston, so its panels lie in z = 0. There dG/dz = K G, K = w^2/g. Capytaine
+integrates the left side by points next to its singularity, and the influence of such a panel on
+itself has an imaginary part of the wrong sign. Water in a tube multiplies errors by the inverse of
+the solid angle of the mouth. So the matrices are mended, forces follow from the total potential,
+and the damping from the forces of waves from all around (Haskind's relation).
 """
 
 from __future__ import annotations
