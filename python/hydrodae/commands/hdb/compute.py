@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from hydrodae.commands.arguments import parse_headings, parse_numbers, parse_point
 from hydrodae.commands.hdb.options import BAD_DATA, DONE, add_grid_options, omega_of, refused, write
+from hydrodae.commands.hdb.own_coordinates import add_own_coordinates, with_own_coordinates
 from hydrodae.commands.options import add_quiet
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.bem import run as bem
@@ -68,6 +69,7 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
     compute.add_argument(
         "--no-lid", action="store_true", help="leave irregular frequencies in (faster)"
     )
+    add_own_coordinates(compute)
     compute.add_argument(
         "--poses",
         metavar="COORDINATE=A,B,...",
@@ -175,6 +177,8 @@ def _poses(args: argparse.Namespace) -> list[Pose]:
         raise CaseError(f"--poses {args.poses!r}: expected two or more ascending numbers")
     if len(args.body) != 1:
         raise CaseError("--poses: a table of poses has one --body")
+    if args.piston or args.mode:
+        raise CaseError("--poses: a body with --piston or --mode has no table of poses")
     return [Pose(coordinate, number) for number in numbers]
 
 
@@ -205,10 +209,12 @@ def _compute_one(
 ) -> int:
     """Compute the database of one pose and write it; the exit code."""
     bodies = [_body(text, points, args.panel, settings, pose) for text in args.body]
+    bodies = with_own_coordinates(bodies, pistons=args.piston, formulas=args.mode)
     statics = computing.hydrostatics_of(bodies)
     for body in bodies:
-        volume = statics[body.name].displaced_volume
-        print(f"{body.name}: {len(body.panels)} panels, displaces {volume:.5g} m3")
+        volume, pool = statics[body.name].displaced_volume, len(body.pool)
+        on_pool = f" and {pool} on its pool" if pool else ""
+        print(f"{body.name}: {len(body.panels)} panels{on_pool}, displaces {volume:.5g} m3")
     warning = bem.panel_warning(bodies, settings)
     if warning:
         print(f"warning: {warning}")

@@ -18,6 +18,8 @@ from hydrodae.support.arrays import Array
 LEAST = 0.5
 #: A grid that covers more than this is good enough.
 GOOD = 0.95
+#: Share of a pool that its panels must cover: its area is the stiffness of the water in it.
+FULL = 0.999
 
 
 def lid(panels: Array) -> Array:
@@ -44,23 +46,60 @@ def lid(panels: Array) -> Array:
     loops = water_line(panels)
     if not loops:
         return np.zeros((0, 4, 3))
+    found, share = _cover(loops, panels, GOOD)
+    if share < LEAST:
+        raise DatabaseError(
+            f"the lid would cover {share:.3g} of the inner water plane: irregular frequencies "
+            f"would stay (finer panels may help; --no-lid computes without)"
+        ).about("mesh", "lid")
+    return found
+
+
+def pools(panels: Array) -> list[Array]:
+    """Make panels at z = 0 on the free surfaces inside a hull, such as a moonpool.
+
+    Parameters
+    ----------
+    panels : (n, 4, 3) array
+        Wetted surface, open at z = 0.
+
+    Returns
+    -------
+    list of (m, 4, 3) array
+        One for each pool, the largest first; normals downwards, into the water.
+
+    Raises
+    ------
+    DatabaseError
+        The water line is not closed, or panels would not cover a pool.
+    """
+    loops = sorted(water_line(panels), key=lambda loop: -abs(_shoelace(loop)))
+    inner = [loop for loop in loops if _shoelace(loop) * _shoelace(loops[0]) < 0.0]
+    made = [_cover([loop], panels, FULL) for loop in inner]
+    if min((share for _, share in made), default=1.0) < FULL:
+        raise DatabaseError(
+            "panels would not cover the free surface inside the hull: its water line is neither "
+            "a rectangle along x and y nor seen whole from its middle"
+        ).about("mesh", "pool")
+    return [found for found, _ in made]
+
+
+def _cover(loops: list[Array], panels: Array, enough: float) -> tuple[Array, float]:
+    """Panels at z = 0 (m, 4, 3) inside loops, and the share of the area that they cover.
+
+    A grid is taken if its share is `enough`.
+    """
     sides = np.linalg.norm(panels - np.roll(panels, 1, axis=1), axis=2)
     size = float(sides[sides > 0.0].mean())
     area = abs(sum(_shoelace(loop) for loop in loops))  # a moonpool runs the other way
     found = _grid(loops, size)
-    if _area(found) < GOOD * area:
+    if _area(found) < enough * area:
         rings = _rings(loops[0], size) if len(loops) == 1 else _between(loops, size)
         found = found if rings is None else rings
-    covered = _area(found)
-    if covered < LEAST * area:
-        raise DatabaseError(
-            f"the lid would cover {covered:.3g} of {area:.3g} m2 of the inner water plane: "
-            f"irregular frequencies would stay (finer panels may help; --no-lid computes without)"
-        ).about("mesh", "lid")
     flat = np.concatenate([found, np.zeros((*found.shape[:2], 1))], axis=2)
     upwards = np.array([_shoelace(p) > 0.0 for p in found])
     flat[upwards] = flat[upwards][:, [1, 0, 3, 2]]
-    return flat
+    return flat, _area(found) / area
 
 
 def water_line(panels: Array) -> list[Array]:
@@ -159,8 +198,11 @@ def _between(loops: list[Array], size: float) -> Array | None:
     if len(arms) < 2:
         return None
     corners = np.concatenate([np.arctan2(arm[:, 1], arm[:, 0]) for arm in arms])
-    angle = np.unique(np.mod(corners, 2.0 * np.pi).round(9))
+    angle = np.sort(np.mod(corners, 2.0 * np.pi))
     angle = np.append(angle, angle[0] + 2.0 * np.pi)
+    # angles of corners on one ray differ by rounding; those near 0 may be near 2 pi
+    angle = np.append(angle[:-1][np.diff(angle) > 1e-7], angle[-1])
+    angle[0] = angle[-1] - 2.0 * np.pi
     direction = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     reach = [_reach(arm, angle) for arm in arms]
     count = max(2, int(np.ceil((reach[0] - reach[1]).mean() / size - 1e-9)))

@@ -53,7 +53,10 @@ def ring(
     x: float = 0.0,
     y: float = 0.0,
 ) -> Array:
-    """Vertical cylinder with a moonpool of radius `inner`, from z = top down to z = -draft."""
+    """Vertical cylinder with a moonpool of radius `inner`, from z = top down to z = -draft.
+
+    Panels are shorter near its edges: the flow around the mouth decides how the pool moves.
+    """
     positive(size=size, radius=radius, inner=inner, draft=draft)
     check_top("ring", top, draft)
     if inner >= radius:
@@ -61,10 +64,10 @@ def ring(
     points = [(radius, top), (radius, -draft), (inner, -draft), (inner, top)]
     if top < 0.0:
         points.append((radius, top))
-    return np.asarray(revolution(size, np.array(points)) + np.array([x, y, 0.0]))
+    return np.asarray(revolution(size, np.array(points), graded=True) + np.array([x, y, 0.0]))
 
 
-def revolution(size: float, profile: ArrayLike) -> Array:
+def revolution(size: float, profile: ArrayLike, *, graded: bool = False) -> Array:
     """Surface of a meridian (r, z) that runs along the wetted side, water on its outer side.
 
     Parameters
@@ -75,6 +78,9 @@ def revolution(size: float, profile: ArrayLike) -> Array:
         Points r >= 0, z [m], joined by straight lines; from the water line (or the upper end of the
         axis) down and inwards. What is above z = 0 is cut off by `hydrodae.hdb.bem.cutting`, which
         also turns a surface that runs the other way.
+    graded : bool
+        Divide each line by a cosine, so that panels at its ends are short, those in its middle of
+        the given size.
 
     Returns
     -------
@@ -95,7 +101,11 @@ def revolution(size: float, profile: ArrayLike) -> Array:
     for a, b in pairwise(points):
         length = float(np.linalg.norm(b - a))
         if length > 0.0:
-            share = np.linspace(0.0, 1.0, count(length, size) + 1)[1:, None]
+            share = np.linspace(
+                0.0, 1.0, count((0.5 * np.pi if graded else 1.0) * length, size) + 1
+            )
+            share = 0.5 - 0.5 * np.cos(np.pi * share) if graded else share
+            share = share[1:, None]
             parts.append(a + share * (b - a))
     line = np.concatenate(parts)
     return revolved(line[:, 0], line[:, 1], size)

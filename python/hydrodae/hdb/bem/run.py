@@ -16,11 +16,14 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from scipy.linalg import block_diag
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.bem.green import solve
 from hydrodae.hdb.bem.lids import lid
+from hydrodae.hdb.bem.modes import Mode, stiffness
 from hydrodae.hdb.bem.overlap import overlapping
+from hydrodae.hdb.bem.pool import in_water_plane, solve_pool
 from hydrodae.hdb.database.extra import SHALLOW
 from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.support.arrays import Array
@@ -41,11 +44,22 @@ class WettedBody:
         Wetted surface (`hydrodae.hdb.bem.shapes`), or more: what is above z = 0 is cut off [m].
     point : (3,) array
         Reference point of rotations and moments [m].
+    pool : (m, 4, 3) array
+        Panels on the free surfaces inside the hull, which move with the body (`lids.pools`) [m].
+    modes : dict of Mode
+        Its own coordinates, on panels and pool.
     """
 
     name: str
     panels: Array
     point: Array
+    pool: Array = field(default_factory=lambda: np.zeros((0, 4, 3)))
+    modes: dict[str, Mode] = field(default_factory=dict)
+
+    @property
+    def moving(self) -> Array:
+        """Panels (n + m, 4, 3) of hull and pool [m]."""
+        return np.concatenate([self.panels, self.pool])
 
 
 @dataclass(frozen=True)
@@ -55,7 +69,7 @@ class Settings:
     Attributes
     ----------
     omega : (nw,) array
-        Frequencies [rad/s], finite and > 0; w = inf is always added.
+        Frequencies [rad/s], finite and > 0; w = inf is added where no body has a pool.
     heading : (nh,) array
         Directions of travel [rad].
     rho, gravity, water_depth : float
@@ -120,8 +134,14 @@ def compute(
     ------
     DatabaseError
         Capytaine is missing, a body is deeper than the water, a lid covers too little, too many
-        panels, a frequency at which Capytaine has no Green function, or NaN at w = inf.
+        panels, a frequency at which Capytaine has no Green function, or NaN at w = inf; a pool
+        without lids, or with Kochin functions.
     """
+    piped = any(len(body.pool) for body in bodies)
+    if piped and (settings.kochin or not settings.lid):
+        raise DatabaseError("a piston on a pool needs the lid, and has no Kochin functions").about(
+            "option", "piston"
+        )
     _check_depth(bodies, settings.water_depth)
     pair = overlapping({body.name: body.panels for body in bodies})
     if pair is not None:
@@ -134,7 +154,7 @@ def compute(
     logging.getLogger("capytaine").setLevel(logging.ERROR)
     place = folder / _key(cpt.__version__, bodies, settings)
     place.mkdir(parents=True, exist_ok=True)
-    omega = np.append(settings.omega, np.inf)
+    omega = settings.omega if piped else np.append(settings.omega, np.inf)
     files = [place / f"omega_{w:.6f}.nc" for w in omega]
     todo = [(w, f) for w, f in zip(omega, files, strict=True) if not f.is_file()]
     if todo:
@@ -148,7 +168,7 @@ def compute(
             partial.rename(file)
             if progress is not None:
                 progress(len(files) - len(todo) + i, len(files), float(w), monotonic() - start)
-    return _collect(files, bodies, place / "all.nc")
+    return _collect(files, bodies, settings, place / "all.nc")
 
 
 def _check_depth(bodies: Sequence[WettedBody], water_depth: float) -> None:
@@ -203,20 +223,23 @@ def _mesh(cpt: Any, panels: Array) -> Any:
 
 
 def _device(cpt: Any, bodies: Sequence[WettedBody], settings: Settings) -> Any:
-    """All bodies as one mesh with six degrees of freedom `<body>__<Dof>` each."""
+    """All bodies as one mesh with degrees of freedom `<body>__<Dof>`: six each, and their modes."""
     from capytaine.bodies.dofs import DofOnSubmesh, rigid_body_dofs
 
-    hull = np.concatenate([b.panels for b in bodies])
+    hull = np.concatenate([b.moving for b in bodies])
     _check_count(len(hull))
     found = [_lid(b) for b in bodies] if settings.lid else []
     lids = [panels for panels in found if len(panels)]
     _check_count(len(hull) + sum(map(len, lids)))
-    starts = np.r_[0, np.cumsum([len(b.panels) for b in bodies])]
-    dofs = {}
+    starts = np.r_[0, np.cumsum([len(b.moving) for b in bodies])]
+    dofs: dict[str, Any] = {}
     for body, first, last in zip(bodies, starts[:-1], starts[1:], strict=True):
         mine = np.arange(first, last)
         for dof, motion in rigid_body_dofs(rotation_center=np.asarray(body.point)).items():
             dofs[f"{body.name}__{dof}"] = DofOnSubmesh(motion, mine)
+        for dof, mode in body.modes.items():
+            dofs[f"{body.name}__{dof}"] = np.zeros((len(hull), 3))
+            dofs[f"{body.name}__{dof}"][mine] = mode.shape
     return cpt.FloatingBody(
         mesh=_mesh(cpt, hull),
         lid_mesh=_mesh(cpt, np.concatenate(lids)) if lids else None,
@@ -241,6 +264,8 @@ def _lid(body: WettedBody) -> Array:
 
 def _solve(cpt: Any, device: Any, omega: float, settings: Settings) -> xr.Dataset:
     water = {"rho": settings.rho, "g": settings.gravity, "water_depth": settings.water_depth}
+    if in_water_plane(device.mesh).any():
+        return solve_pool(cpt, device, omega, water, settings.heading)
     results, shallow = solve(cpt, device, omega, water, settings.heading, "direct")
     names = list(device.dofs)
     data: xr.Dataset = cpt.assemble_dataset(results)
@@ -259,7 +284,9 @@ def _solve(cpt: Any, device: Any, omega: float, settings: Settings) -> xr.Datase
     return data
 
 
-def _collect(files: list[Path], bodies: Sequence[WettedBody], target: Path) -> Path:
+def _collect(
+    files: list[Path], bodies: Sequence[WettedBody], settings: Settings, target: Path
+) -> Path:
     parts = []
     for file in files:
         with xr.open_dataset(file, engine="netcdf4") as opened:
@@ -273,8 +300,18 @@ def _collect(files: list[Path], bodies: Sequence[WettedBody], target: Path) -> P
     points = np.array([b.point for b in bodies], dtype=float)
     data["rotation_center"] = (("body_name", "space_coordinate"), points)
     data.attrs[SHALLOW] = sorted(shallow)
+    if any(body.modes for body in bodies):
+        pairs = ("influenced_dof", "radiating_dof")
+        data["hydrostatic_stiffness"] = (pairs, _stiffness(bodies, settings))
     data.to_netcdf(target, engine="netcdf4")
     return target
+
+
+def _stiffness(bodies: Sequence[WettedBody], settings: Settings) -> Array:
+    """Hydrostatics (n, n) of all degrees of freedom of `_device`; none between bodies."""
+    water = settings.rho, settings.gravity
+    blocks = [stiffness(b.moving, b.point, list(b.modes.values()), *water) for b in bodies]
+    return np.asarray(block_diag(*blocks))
 
 
 def _key(version: str, bodies: Sequence[WettedBody], settings: Settings) -> str:
@@ -285,5 +322,7 @@ def _key(version: str, bodies: Sequence[WettedBody], settings: Settings) -> str:
     )
     for body in bodies:
         digest.update(f"{body.name} {np.asarray(body.point).round(9).tolist()}".encode())
-        digest.update(np.ascontiguousarray(body.panels.round(9)).tobytes())
+        digest.update(np.ascontiguousarray(body.moving.round(9)).tobytes())
+        for name, mode in body.modes.items():
+            digest.update(name.encode() + mode.shape.round(9).tobytes())
     return digest.hexdigest()[:12]

@@ -56,4 +56,4 @@ def hydrostatics_of(bodies: Sequence[run.WettedBody]) -> dict[str, Hydrostatics]
     """
     if len({body.name for body in bodies}) < len(bodies):
         raise CaseError("two bodies have the same name")
-    return {body.name: shapes.hydrostatics(body.panels, body.point) for body in bodies}
+    return {body.name: shapes.hydrostatics(body.moving, body.point) for body in bodies}

@@ -63,25 +63,25 @@ def _read(path: Path, f: h5py.File) -> SourceData:
             raise DatabaseError(
                 f"{g.name}/properties/dof is {n}; expected 6 or more, the rigid ones first"
             ).about("shape", "dof")
-    starts = np.r_[0, np.cumsum(counts)]
-    kept = np.concatenate([start + np.arange(6) for start in starts[:-1]])
-    if any(n > 6 for n in counts):
-        text = f"left out (not rigid): {sum(counts) - 6 * len(counts)} generalised modes"
-        findings.append(Finding("warning", "coordinates", text))
+    total = sum(counts)
     raw = [_text(g["properties/name"][()]) if "properties/name" in g else g.name for g in groups]
     names = unique_names(raw)
+    coordinates = [c for name, n in zip(names, counts, strict=True) for c in _coordinates(name, n)]
+    if total > 6 * len(counts):
+        text = f"{total - 6 * len(counts)} generalised modes: mode7 and so on of their bodies"
+        findings.append(Finding("info", "coordinates", text))
     a, b, a_inf = [], [], []
     forces: dict[str, list[Array]] = {"": [], "froude-krylov/": [], "scattering/": []}
     for g, count in zip(groups, counts, strict=True):
-        full = (count, int(starts[-1]), omega.size)
-        a.append(_table(g, "added_mass/all", full)[:6, kept])
-        b.append(_table(g, "radiation_damping/all", full)[:6, kept])
-        a_inf.append(_table(g, "added_mass/inf_freq", full[:2])[:6, kept])
+        full = (count, total, omega.size)
+        a.append(_table(g, "added_mass/all", full))
+        b.append(_table(g, "radiation_damping/all", full))
+        a_inf.append(_table(g, "added_mass/inf_freq", full[:2]))
         for key, found in forces.items():
             if f"hydro_coeffs/excitation/{key}re" not in g:
                 continue
             parts = [
-                _table(g, f"excitation/{key}{p}", (count, heading.size, omega.size))[:6]
+                _table(g, f"excitation/{key}{p}", (count, heading.size, omega.size))
                 for p in ("re", "im")
             ]
             found.append(parts[0] + 1j * parts[1])
@@ -90,7 +90,7 @@ def _read(path: Path, f: h5py.File) -> SourceData:
     factor = 1.0 if scaled else rho
     code = _text(f["bem_data/code"][()]) if "bem_data/code" in f else "not stated"
     data = SourceData(
-        coordinates=six_of_each(names),
+        coordinates=tuple(coordinates),
         omega=omega,
         added_mass=factor * np.concatenate(a).transpose(2, 0, 1)[order],
         radiation_damping=np.concatenate(b).transpose(2, 0, 1)[order],
@@ -116,9 +116,16 @@ def _read(path: Path, f: h5py.File) -> SourceData:
             value = force_scale * np.concatenate(forces[key]).transpose(2, 1, 0)[order]
             # BEMIO fills what the code behind it did not give with NaN
             setattr(data, field, None if np.isnan(value).all() else value)
-    for name, g in zip(names, groups, strict=True):
-        _attach_body(data, name, g, 1.0 if scaled else rho * gravity)
+    starts = np.r_[0, np.cumsum(counts)]
+    for name, g, first, last in zip(names, groups, starts[:-1], starts[1:], strict=True):
+        own = slice(int(first), int(last))
+        _attach_body(data, name, g, 1.0 if scaled else rho * gravity, own, total)
     return data
+
+
+def _coordinates(body: str, count: int) -> tuple[str, ...]:
+    """Labels of a body with `count` degrees of freedom: the modes follow its rigid motions."""
+    return (*six_of_each([body]), *(f"{body}.mode{m}" for m in range(7, count + 1)))
 
 
 def _bodies(f: h5py.File) -> list[str]:
@@ -143,24 +150,40 @@ def _added_mass_inf(value: Array, code: str, findings: list[Finding]) -> Array |
     return value
 
 
-def _attach_body(data: SourceData, name: str, g: h5py.Group, scale: float) -> None:
+def _attach_body(
+    data: SourceData, name: str, g: h5py.Group, scale: float, own: slice, total: int
+) -> None:
     point = _vector(g, "properties/cg")
     data.reference_points[name] = point
+    stiffness = "hydro_coeffs/linear_restoring_stiffness"
+    k = None if stiffness not in g else scale * _stiffness(g, own, total)
+    if own.stop - own.start > 6:
+        if k is None or not np.all(np.isfinite(np.r_[k[6:].ravel(), k[:, 6:].ravel()])):
+            raise DatabaseError(f"{g.name}/{stiffness} has no numbers for the modes").about(
+                "missing", "linear_restoring_stiffness"
+            )
+        data.mode_stiffness[name] = np.nan_to_num(k)
     buoyancy = _vector(g, "properties/cb")
     volume = g["properties/disp_vol"][()].ravel() if "properties/disp_vol" in g else []
-    stiffness = "hydro_coeffs/linear_restoring_stiffness"
-    if point is None or buoyancy is None or len(volume) != 1 or stiffness not in g:
+    if point is None or buoyancy is None or len(volume) != 1 or k is None:
         text = f"{name}: cg, cb, disp_vol or linear_restoring_stiffness is missing"
         data.findings.append(without_hydrostatics(text, [name]))
         return
-    k = scale * _array(g, stiffness)[:6, :6]
-    if not np.all(np.isfinite(k)) or not np.isfinite(volume[0]):
+    if not np.all(np.isfinite(k[:6, :6])) or not np.isfinite(volume[0]):
         data.findings.append(without_hydrostatics(f"{name}: holds NaN; left out", [name]))
         return
     hydrostatics = Hydrostatics.from_stiffness(
-        k, point, float(volume[0]), buoyancy, data.rho, data.gravity
+        k[:6, :6], point, float(volume[0]), buoyancy, data.rho, data.gravity
     )
     data.hydrostatics[name] = (hydrostatics, point)
+
+
+def _stiffness(g: h5py.Group, own: slice, total: int) -> Array:
+    """C of a body (n, n): of rigid bodies 6 rows and columns, with modes the columns of all."""
+    count = own.stop - own.start
+    if count == 6:
+        return _array(g, "hydro_coeffs/linear_restoring_stiffness")[:6, :6]
+    return _table(g, "linear_restoring_stiffness", (count, total))[:, own]
 
 
 def _dof(g: h5py.Group) -> float:

@@ -15,7 +15,7 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.coordinates import unique_names
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
-from hydrodae.hdb.labels import DOFS, bodies_of, read_labels, rigid, six_of_each
+from hydrodae.hdb.labels import DOFS, bodies_of, read_labels, six_of_each
 from hydrodae.hdb.readers.formats import Format
 from hydrodae.hdb.readers.mesh_beside import statics_of_file
 from hydrodae.hdb.readers.setting import Setting
@@ -81,10 +81,14 @@ class Run:
 
 @dataclass(frozen=True)
 class Motions:
-    """Modes of a run, from 1: `every` one of the tables, and those `kept`; bodies, coordinates."""
+    """Modes of a run, from 1: `every` one of the tables, and those `kept`; bodies, coordinates.
+
+    `starts` are the modes before those of each body, and of all (bodies + 1,).
+    """
 
     every: Array
     kept: Array
+    starts: Array
     names: list[str]
     coordinates: tuple[str, ...]
 
@@ -232,26 +236,35 @@ def _motions(run: Run, findings: list[Finding]) -> Motions:
             f"{every[wrong][0]:g} is no mode: columns 2 and 3 must be modes 1, 2, ..."
         ).about("label", "modes", file=path)
     bodies = len(control.points) or int((every.max() + 5) // 6)
-    extra = every[every > 6 * bodies]
-    flexible = bodies == 1 and run.stiffness is not None
-    if extra.size and flexible:
-        text = f"modes {extra[0]:g} to {extra[-1]:g} are generalised: mode7 and so on"
+    starts = control.starts(bodies, int(every.max()))
+    inside = every[every <= starts[-1]]
+    body = np.searchsorted(starts, inside - 1.0, side="right") - 1
+    place = (inside - starts[body]).astype(int)
+    kept = np.ones(inside.size, dtype=bool) if run.stiffness is not None else place <= 6
+    if np.any(place[kept] > 6):
+        text = (
+            f"modes {_listed(inside[place > 6])} are generalised: mode7 and so on of their bodies"
+        )
         findings.append(Finding("info", "coordinates", text))
-    elif extra.size:
-        text = f"left out (not rigid): modes {', '.join(f'{m:g}' for m in extra)}"
+    lost_modes = np.setdiff1d(every, inside[kept])
+    if lost_modes.size:
+        text = f"left out (not rigid): modes {_listed(lost_modes)}"
         findings.append(Finding("warning", "coordinates", text))
-    modes = every if flexible else every[every <= 6 * bodies]
+    modes, body, place = inside[kept], body[kept], place[kept]
     stem = run.stem.name
     raw = control.names or [stem if bodies == 1 else f"body{i + 1}" for i in range(bodies)]
     names = unique_names(raw)
-    lost = [name for i, name in enumerate(names) if not np.any((modes - 1) // 6 == i)]
+    lost = [name for i, name in enumerate(names) if i not in body]
     if lost:
         text = f"{path.name} holds no modes of {', '.join(lost)}, which the control files name"
         findings.append(Finding("warning", "coordinates", text))
-    numbers = modes.astype(int)
-    labels = [f"{names[(m - 1) // 6]}.{DOFS[(m - 1) % 6]}" for m in numbers if m <= 6 * bodies]
-    labels += [f"{names[0]}.mode{m}" for m in numbers if m > 6 * bodies]
-    return Motions(every, modes, names, tuple(labels))
+    words = [DOFS[m - 1] if m <= 6 else f"mode{m}" for m in place]
+    labels = [f"{names[i]}.{word}" for i, word in zip(body, words, strict=True)]
+    return Motions(every, modes, starts, names, tuple(labels))
+
+
+def _listed(modes: Array) -> str:
+    return ", ".join(f"{m:g}" for m in modes)
 
 
 def _of_modes(rows: Rows, modes: Array) -> Rows:
@@ -272,7 +285,8 @@ def _radiation(
             "shape", file=rows.path, line=int(rows.lines[lacking[0]])
         )
     known = at[np.isfinite(at) & (at > 0.0)]
-    findings += asked_findings(run.control.asked, rows, known, modes, motions.names, setting)
+    asked, names, starts = run.control.asked, motions.names, motions.starts
+    findings += asked_findings(asked, rows, known, modes, names, setting, starts)
     keys, axes = (omega, *rows.modes.T), (at, modes, modes)
     a = np.real(tabulate(rows, keys, axes, added))
     b = np.real(tabulate(rows, keys, axes, np.nan_to_num(damping)))
@@ -321,10 +335,12 @@ def _attach_hydrostatics(data: SourceData, run: Run, motions: Motions) -> None:
     table: Array | None = None
     if rows is not None:
         data.files.append(rows.path)
-        table = _stiffness(rows, np.arange(1.0, 6.0 * len(names) + 1.0), motions.every)
-        generalised = rows.modes[rows.modes > 6 * len(names)]
-        if more := sorted({*generalised} - {*motions.every}):
-            text = f"{rows.path.name}: left out, modes {', '.join(f'{m:g}' for m in more)}"
+        firsts = motions.starts[:-1]
+        rigid_modes = np.concatenate([first + np.arange(1.0, 7.0) for first in firsts])
+        table = _stiffness(rows, rigid_modes, motions.every)
+        others = {*rows.modes.ravel()} - {*rigid_modes} - {*motions.every}
+        if more := sorted(others):
+            text = f"{rows.path.name}: left out, modes {_listed(np.array(more))}"
             text += ", which the run does not have"
             data.findings.append(Finding("info", "hydrostatics", text))
     for i, name in enumerate(names):
@@ -345,11 +361,15 @@ def _attach_hydrostatics(data: SourceData, run: Run, motions: Motions) -> None:
         area = None if table is None else float(table[6 * i + 2, 6 * i + 2]) * length**2
         shift = data.reference_points[name] if mesh[1] else None
         statics_of_file(data, name, mesh[0], text, shift=shift, area=area or None)
-    if rows is not None and len(rigid(data.coordinates)) < len(data.coordinates):
-        modes = np.r_[1.0:7.0, motions.kept[motions.kept > 6.0]]
+    for i, name in enumerate(names):
+        first, last = motions.starts[i : i + 2]
+        mine = motions.kept[(motions.kept > first + 6) & (motions.kept <= last)]
+        if rows is None or not mine.size:
+            continue
+        modes = np.r_[first + np.arange(1.0, 7.0), mine]
         turns = np.isin(np.arange(modes.size), (3, 4, 5))
         scale = data.rho * data.gravity * (length ** (2.0 + turns[:, None] + turns))
-        data.mode_stiffness[names[0]] = scale * _stiffness(rows, modes, motions.every)
+        data.mode_stiffness[name] = scale * _stiffness(rows, modes, motions.every)
 
 
 def _attach_waterplane(data: SourceData, name: str, statics: Statics, block: Array | None) -> bool:

@@ -65,6 +65,7 @@ class Statics:
 class Control:
     """Settings of a run; None where no file says.
 
+    `new_modes` are the numbers of generalised modes (NEWMDS) of bodies from 1.
     `likely_depth` is that of a program that uses the tables, which may be of another depth.
     """
 
@@ -82,6 +83,19 @@ class Control:
     asked: Asked | None = None
     stiffness: list[Array] = field(default_factory=list)
     files: list[Path] = field(default_factory=list)
+    new_modes: dict[int, int] = field(default_factory=dict)
+
+    def starts(self, bodies: int, most: int) -> Array:
+        """Modes before those of each body, and of all (bodies + 1,): 6 and NEWMDS of each.
+
+        Parameters
+        ----------
+        bodies, most : int
+            Number of bodies, and largest mode in the tables, which an only body has.
+        """
+        extra = [self.new_modes.get(i + 1, 0) for i in range(bodies)]
+        counts = [6 + n for n in extra] if any(extra) or bodies > 1 else [max(6, most)]
+        return np.r_[0, np.cumsum(counts)]
 
 
 def read_control(stem: Path) -> Control:
@@ -171,6 +185,8 @@ def _cfg(path: Path, control: Control) -> None:
     for line in read_lines(path):
         if stated := re.match(r"\s*(IPEROUT|IPERIN)\s*=\s*(\d+)", line, re.IGNORECASE):
             found[stated[1].upper()] = int(stated[2])
+        if stated := re.match(r"\s*NEWMDS\s*(?:\((\d+)\))?\s*=\s*(\d+)", line, re.IGNORECASE):
+            control.new_modes[int(stated[1] or 1)] = int(stated[2])
     control.first_column, control.first_input = found["IPEROUT"] or 1, found["IPERIN"] or 1
 
 

@@ -235,8 +235,12 @@ def asked_findings(
     modes: Array,
     names: list[str],
     setting: Setting,
+    starts: Array,
 ) -> list[Finding]:
-    """Compare frequencies (nw,) and modes (n,) of A and B with those of a control file: errors."""
+    """Compare frequencies (nw,) and modes (n,) of A and B with those of a control file: errors.
+
+    `starts` are the modes before those of each body.
+    """
     if asked is None:
         return []
     found, table = [], radiation.path.name
@@ -253,9 +257,9 @@ def asked_findings(
     lost = [
         f"{name}.{DOFS[mode - 1]}"
         for i, (name, wanted) in enumerate(zip(names, asked.modes, strict=False))
-        if np.any((modes - 1) // 6 == i)
+        if np.any((modes > starts[i]) & (modes <= starts[i + 1]))
         for mode in wanted
-        if 6 * i + mode not in modes
+        if starts[i] + mode not in modes
     ]
     if lost:
         text = (

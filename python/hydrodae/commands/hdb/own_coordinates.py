@@ -1,0 +1,95 @@
+"""Options of `hydrodae hdb compute` for own coordinates of bodies: `--piston` and `--mode`."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from hydrodae.errors import CaseError, DatabaseError
+from hydrodae.hdb.bem.lids import pools
+from hydrodae.hdb.bem.modes import by_formula, centers_and_areas, check_names, piston
+from hydrodae.hdb.bem.run import WettedBody
+from hydrodae.hdb.database.coordinates import check_body
+
+
+def add_own_coordinates(compute: argparse.ArgumentParser) -> None:
+    """Add the options."""
+    compute.add_argument(
+        "--piston",
+        action="store_true",
+        help="panels on the free surface inside a hollow body; its rise against the body [m] is the "
+        "coordinate BODY.piston, of several piston1, piston2 and so on",
+    )
+    compute.add_argument(
+        "--mode",
+        metavar="BODY.NAME=FORMULA",
+        action="append",
+        default=[],
+        help="a coordinate of the hull: its rise per unit amplitude as a formula of the place x, y, "
+        "z [m], as in barge.bend='cos(2*pi*x/80)'. Three with commas are displacements along x, y "
+        "and z. May be repeated",
+    )
+
+
+def with_own_coordinates(
+    bodies: Sequence[WettedBody], *, pistons: bool, formulas: Sequence[str]
+) -> list[WettedBody]:
+    """Return the bodies with pistons on their pools and modes by formula.
+
+    Parameters
+    ----------
+    bodies : sequence of WettedBody
+    pistons : bool
+        Give the pools panels.
+    formulas : sequence of str
+        Texts BODY.NAME=FORMULA.
+
+    Raises
+    ------
+    CaseError
+        No hull has a pool, or a formula or its name is wrong.
+    DatabaseError
+        A pool cannot be covered.
+    """
+    made = [_with_pools(body) for body in bodies] if pistons else list(bodies)
+    if pistons and not any(len(body.pool) for body in made):
+        raise CaseError(
+            "--piston: no body has a free surface inside its hull; ring:radius=..:inner=..:draft=.. "
+            "has one"
+        )
+    given: dict[str, dict[str, str]] = {}
+    for text in formulas:
+        label, equals, formula = text.partition("=")
+        body, _, name = label.partition(".")
+        if not equals or not name:
+            raise CaseError(f"--mode {text!r}: expected BODY.NAME=FORMULA")
+        check_body(body, [one.name for one in made])
+        names = [*given.setdefault(body, {}), *next(b for b in made if b.name == body).modes, name]
+        check_names(body, names)
+        given[body][name] = formula
+    return [_with_formulas(body, given.get(body.name, {})) for body in made]
+
+
+def _with_formulas(body: WettedBody, formulas: dict[str, str]) -> WettedBody:
+    centers, _ = centers_and_areas(body.moving)
+    made = {name: by_formula(text, centers) for name, text in formulas.items()}
+    return replace(body, modes=body.modes | made)
+
+
+def _with_pools(body: WettedBody) -> WettedBody:
+    try:
+        found = pools(body.panels)
+    except DatabaseError as error:
+        raise error.within(f"body {body.name}") from None
+    if not found:
+        return body
+    starts = len(body.panels) + np.r_[0, np.cumsum([len(pool) for pool in found])]
+    names = ["piston"] if len(found) == 1 else [f"piston{i + 1}" for i in range(len(found))]
+    modes = {
+        name: piston(int(start), len(pool), int(starts[-1] - start) - len(pool))
+        for name, start, pool in zip(names, starts[:-1], found, strict=True)
+    }
+    return replace(body, pool=np.concatenate(found), modes=modes)
