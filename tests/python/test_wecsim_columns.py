@@ -24,7 +24,7 @@ BLOCKS = [
 INPUT = """
 simu = simulationClass(); simu.simMechanicsFile = 'model.slx';
 simu.endTime = 200; simu.rampTime = 50;
-waves = waveClass('regular'); waves.height = 0.4; waves.period = {period};
+waves = waveClass('regular'); waves.height = 0.02; waves.period = {period};
 body(1) = bodyClass('hydroData/{name}.h5'); body(1).mass = 'equilibrium';
 body(1).inertia = [{inertia}];
 constraint(1) = constraintClass('Constraint1'); constraint(1).location = [0 0 0];
@@ -94,7 +94,8 @@ def test_orifice_above_the_mode_of_a_moonpool(
     assert re.search(r"test17a.h5: is a pointer of Git LFS; read test17a.out", assumed)
     found = tables(tmp_path / "case")
     (mode,), (outlet,), (piston,) = found["mode"], found["outlet"], found["piston"]
-    assert (mode["mass"], mode["damping"]) == (1e-6, 100.0)
+    assert 0.0 < mode["mass"] < 1e-3
+    assert mode["damping"] == 100.0
     assert (outlet["type"], outlet["coefficient"]) == ("orifice", 0.62)
     assert outlet["area"] == pytest.approx(np.pi * 0.03**2)
     assert (piston["mode"], piston["area"]) == ("mode7", pytest.approx(np.pi * 0.25**2))

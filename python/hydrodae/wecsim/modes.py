@@ -17,7 +17,7 @@ from hydrodae.support.arrays import Array
 from hydrodae.wecsim.objects import InputFile, Item
 from hydrodae.wecsim.text import CaseText
 
-#: Mass of a mode that moves water alone [kg]: the case wants one above zero.
+#: Mass of a mode that moves water alone, over that of its water: a case wants one above zero.
 WATER_ALONE = 1e-6
 #: Largest coupling of modes by mass, stiffness or damping, over the root of both diagonals.
 COUPLED = 1e-6
@@ -36,10 +36,13 @@ class Modes:
     matrices : dict of (m, 6 + m) array
         Rows of mass, damping and stiffness of the dry structure; columns surge to yaw, then the
         modes. Units of the modes, such as kg.
+    added : (m,) array
+        Added mass at infinite frequency [kg].
     """
 
     names: tuple[str, ...]
     matrices: dict[str, Array]
+    added: Array
 
     def is_water(self, index: int) -> bool:
         """Whether a mode has no mass of its own: it moves water alone."""
@@ -64,7 +67,9 @@ def read_modes(source: Path, database: HydroDatabase) -> dict[str, Modes]:
         if names:
             read = _of_bemio if h5py.is_hdf5(source) else _of_wamit
             rows = read(source, number, first, count)
-            found[body] = Modes(names, {part: rows[k] for k, part in enumerate(_PARTS)})
+            at = [database.coordinates.index(f"{body}.{name}") for name in names]
+            added = database.added_mass_inf[at, at]
+            found[body] = Modes(names, {p: rows[k] for k, p in enumerate(_PARTS)}, added)
         first += count
     return found
 
@@ -124,7 +129,7 @@ def add_modes(text: CaseText, read: InputFile, item: Item, body: str, modes: Mod
         comment = f"Mode of {item.title}"
         keys["participation"] = [0.0, 0.0, 0.0]
         if modes.is_water(k):
-            keys["mass"] = WATER_ALONE
+            keys["mass"] = WATER_ALONE * float(modes.added[k])
             comment += ": water alone"
         text.table("[[mode]]", keys, comment)
 
