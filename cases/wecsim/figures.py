@@ -55,6 +55,8 @@ def make(example: dict[str, Any], results: Results, case: Path, folder: Path) ->
         means = float(np.mean(ours * exact)), float(np.mean(exact**2))
         name = "elevation, square mean against that of the file, m2"
         return Figure(name, *means, "its spectrum and phases")
+    if kind == "modes":
+        return modes(results, case, folder / example["file"])
     if kind == "predictive":
         found = predictive.figures(case, folder, seeds=10)["power"]
         name = "mean power of ten seas with `predictive.py`, W"
@@ -77,6 +79,19 @@ def make(example: dict[str, Any], results: Results, case: Path, folder: Path) ->
         "faced": faced,
         "pitch": pitch,
     }[kind](results, case)
+
+
+def modes(results: Results, case: Path, file: Path) -> Figure:
+    """Amplitude of the first mode in a regular wave, and that of WAMIT's `.4` file."""
+    tables = tables_of(case)
+    wave, (body, name) = tables["wave"][0], (tables["mode"][0][key] for key in ("body", "name"))
+    period, height = wave["period"], wave["height"]
+    channel = np.asarray(results[f"modes/{body}.{name}/amplitude"]).ravel()
+    ours = amplitude(time_of(results), channel, 2.0 * math.pi / period)
+    rows = np.loadtxt(file, skiprows=1)
+    rows = rows[rows[:, 2] == float(name.removeprefix("mode"))]
+    exact = 0.5 * height * float(np.interp(period, rows[:, 0], rows[:, 3]))
+    return Figure(f"amplitude of {name}, m", ours, exact, f"WAMIT, {file.name}")
 
 
 def stored(results: Results, case: Path, file: Path) -> Figure:

@@ -16,6 +16,9 @@ KINDS = {
     "attenuator": "three hinged pontoons with a power take-off in each hinge",
     "array": "three buoys that radiate into each other",
     "moored": "a float on a submerged body that is held by mooring lines",
+    "owc": "a fixed water column whose air drives a Wells turbine",
+    "spar_owc": "a moored spar with a water column, whose air drives a turbine with a rotor",
+    "flexible_barge": "a barge with a hinge as its mode, and a power take-off on its bend",
 }
 #: What every starter has beside its own files.
 SHARED = ("README.md", "power_matrix.toml")

@@ -12,6 +12,7 @@ from hydrodae.errors import CaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.hull.closed import write_stl
 from hydrodae.support.arrays import Array
+from hydrodae.wecsim.modes import Modes, add_modes
 from hydrodae.wecsim.morison import members
 from hydrodae.wecsim.objects import InputFile, Item
 from hydrodae.wecsim.surface import read_surface
@@ -26,13 +27,14 @@ IDLE = {
     "bodyparaview": "",
     "name": "",
     "dof": "",
+    "flex": "",
+    "gbmDOF": "",
     "geometryFile": "the viewer draws the wetted hull that the database has",
 }
 #: Fields of effects that the kernel has another way, or not at all.
 LACKING = {
     "meanDrift": "mean drift forces",
     "QTFs": "second-order forces (QTF)",
-    "flex": "generalised body modes",
     "variableHydro.option": "variable hydrodynamics (tables that change in the run)",
     "largeXYDisplacement.option": 'large displacements: [sea] phase = "moving" is near to it',
     "hydroStiffness": "hydroStiffness of the body; that of the database is used",
@@ -52,6 +54,8 @@ class Bodies:
         Density of the water [kg/m3].
     target : Path
         Folder of the case, for surfaces.
+    modes : dict of Modes
+        By the name of the body.
     """
 
     def __init__(
@@ -61,9 +65,10 @@ class Bodies:
         database: HydroDatabase | None,
         rho: float,
         target: Path,
+        modes: Mapping[str, Modes] | None = None,
     ) -> None:
         self.read, self.names, self.database, self.rho = read, names, database, rho
-        self.target = target
+        self.target, self.modes = target, modes or {}
 
     def item(self, number: int) -> Item:
         """Entries of a body."""
@@ -146,6 +151,8 @@ class Bodies:
         text.table("[[body]]", keys, f"{item.title}{comment}")
         if "mesh" in keys:
             item.used.add("geometryFile")
+        if name in self.modes:
+            add_modes(text, self.read, item, name, self.modes[name])
         self._notes(item, keys)
         if motion != "fixed":
             self._damping(text, item, name)
@@ -216,7 +223,7 @@ class Bodies:
         remarks = self.read.remarks
         for field, text in LACKING.items():
             if np.any(item.vector(field, [0.0]) != 0.0):
-                self._left_out(item, field, text, "modes" if field == "flex" else "")
+                self._left_out(item, field, text)
         for field in item.entries:
             if field.startswith("variableHydro."):
                 item.used.add(field)

@@ -15,11 +15,13 @@ from hydrodae.case.case import Case
 from hydrodae.errors import CaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.preparation.mirroring import mirrored
+from hydrodae.wecsim.air import add_orifice, atmosphere, has_orifice
 from hydrodae.wecsim.bodies import Bodies
 from hydrodae.wecsim.conditions import STUDY, find_conditions, write_study
 from hydrodae.wecsim.hydro import find_source, read_database, with_radiation
 from hydrodae.wecsim.links import Links
 from hydrodae.wecsim.m_file import read_input
+from hydrodae.wecsim.modes import Modes, read_modes
 from hydrodae.wecsim.moorings import add_mooring
 from hydrodae.wecsim.objects import InputFile
 from hydrodae.wecsim.remarks import Remarks
@@ -88,11 +90,11 @@ def convert(
     model = read_slx(_model_file(read))
     topology = find_topology(model, read)
     conditions = find_conditions(read)
-    database, radiation, why = _database(read, topology)
+    database, radiation, why, modes = _database(read, topology)
     made = not target.exists()
     target.mkdir(parents=True, exist_ok=True)
     try:
-        text = _write(read, model, topology, database, radiation, why, target)
+        text = _write(read, model, topology, database, radiation, why, modes, target)
         if conditions is not None:
 
             def again(other: InputFile) -> CaseText:
@@ -102,7 +104,7 @@ def convert(
                     keys["frequency"] = frequency
                 found = find_topology(model, other)
                 _keep_to_yaw(other, found, database)
-                return _write(other, model, found, database, keys, why, target)
+                return _write(other, model, found, database, keys, why, modes, target)
 
             write_study(conditions, read, str(text), again, target)
         _unused(read)
@@ -165,8 +167,8 @@ def _model_file(read: InputFile) -> Path:
 
 def _database(
     read: InputFile, topology: Topology
-) -> tuple[HydroDatabase | None, dict[str, float | str], str]:
-    """The database with the radiation that the case asks for, and the keys of [hydro]."""
+) -> tuple[HydroDatabase | None, dict[str, float | str], str, dict[str, Modes]]:
+    """The database with the radiation of the case, the keys of [hydro] and modes by body."""
     wet: dict[int, str] = {}
     sources: dict[str, list[int]] = {}
     for number, name in sorted(topology.names.items()):
@@ -185,7 +187,7 @@ def _database(
     if not wet:
         if simu is not None:
             simu.used.add("b2b")  # of radiation
-        return None, {}, ""
+        return None, {}, "", {}
     if len(sources) > 1:
         raise CaseError(
             f"{read.path}: the bodies are in {len(sources)} databases ({', '.join(sources)}); "
@@ -193,7 +195,9 @@ def _database(
         )
     rho = 1000.0 if simu is None else simu.number_of("rho", 1000.0)
     gravity = 9.81 if simu is None else simu.number_of("gravity", 9.81)
-    database = read_database(find_source(next(iter(sources)), read), wet, rho, gravity, read)
+    source = find_source(next(iter(sources)), read)
+    database = read_database(source, wet, rho, gravity, read)
+    modes = read_modes(source, database)
     if len(wet) > 1 and (simu is None or not simu.number_of("b2b")):
         database = database.without_coupling()
         read.remarks.assumed(
@@ -207,6 +211,7 @@ def _database(
         for number in group.bodies
         if number in wet and group.motion != "fixed"
     ]
+    moving += [f"{body}.{mode}" for body, found in modes.items() for mode in found.names]
     turning = [b for b in read.of("body") if b.number_of("yaw.option")]
     if turning:
         database, mirrors = mirrored(database)
@@ -221,7 +226,7 @@ def _database(
     keys["radiation"] = kind
     if frequency is not None and kind == "constant":
         keys["frequency"] = frequency
-    return database, keys, why
+    return database, keys, why, modes
 
 
 def _write(
@@ -231,6 +236,7 @@ def _write(
     database: HydroDatabase | None,
     hydro: dict[str, float | str],
     why: str,
+    modes: dict[str, Modes],
     target: Path,
 ) -> CaseText:
     simu = read.get("simu")
@@ -247,12 +253,13 @@ def _write(
             "gravity": gravity,
             "water_density": None if database is not None else rho,
             "water_depth": _water_depth(read, database),
+            **atmosphere(model, read),
         },
     )
     if database is not None:
         text.table("[hydro]", hydro, why)
     add_waves(text, read, target, None if database is None else database.omega)
-    bodies = Bodies(read, topology.names, database, rho, target)
+    bodies = Bodies(read, topology.names, database, rho, target, modes)
     carriers = _carriers(text, topology, bodies)
     links = Links(read, topology, bodies, carriers)
     for link in topology.links:
@@ -260,6 +267,14 @@ def _write(
     if links.stages is not None:
         simu = read.get("simu")
         links.stages.write(target, 100.0 if simu is None else simu.number_of("endTime", 100.0))
+    for block, number in topology.flexible:
+        if topology.names[number] not in modes:
+            lacking = "generalised body modes, which the database lacks; the body is taken as rigid"
+            read.remarks.left_out(model.place(block), lacking, "modes")
+    if database is not None and has_orifice(model):
+        for number, name in topology.names.items():
+            if name in modes:
+                add_orifice(text, read, bodies.item(number), modes[name], database, name)
     for block, group in topology.moorings:
         held = topology.groups[group].bodies
         add_mooring(text, block, model.place(block), held[0] if held else None, bodies, read)

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.checks.band import felt_band
+from hydrodae.hdb.checks.irregular import suspect_rows
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.preparation.fitting import fit, kernel
 from hydrodae.hdb.preparation.importing import import_database
@@ -148,6 +149,14 @@ def read_database(
         if name not in renaming:
             renaming[name] = f"unused_{name}"
     database, report = import_database(source, names=renaming)
+    if any(label.is_mode for label in database.labels) and suspect_rows(database).any():
+        highest = felt_band(database)[1]
+        database, report = import_database(source, names=renaming, cut=highest)
+        file.remarks.assumed(
+            source.name,
+            f"frequencies above {highest:.3g} rad/s left out: the device does not feel them, and "
+            "tables with modes of water break causality there (sloshing, irregular frequencies)",
+        )
     for finding in report.left([]):
         file.remarks.assumed(
             source.name, f"check {finding.name}: {finding.message}; taken as it is"

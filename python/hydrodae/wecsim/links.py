@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from hydrodae.support.arrays import Array
+from hydrodae.wecsim.air import add_turbine, find_air
 from hydrodae.wecsim.bodies import Bodies
 from hydrodae.wecsim.m_text import NotEvaluated, understood
 from hydrodae.wecsim.objects import InputFile, Item
@@ -82,11 +83,25 @@ class Links:
             kind = "displacement" if link.kind == "Translational" else "angle_deg"
             keys["initial"] = {kind: start if kind == "displacement" else math.degrees(start)}
         text.table("[[joint]]", keys, f"{item.title}, block {link.block.name!r}")
-        chained = link.is_pto and self._chain(text, link, place, name, start)
+        chained = link.is_pto and (
+            self._air(text, link, place, name) or self._chain(text, link, place, name, start)
+        )
         law = self._law(link, place) if link.actuated and not chained else None
         if link.is_pto:
             self._take_off(text, link, name, start, law or Law())
         self._stops(text, link, name, start)
+
+    def _air(self, text: CaseText, link: Link, place: str, name: str) -> bool:
+        """Write the air chamber that drives an actuator; whether one does."""
+        blocks = find_air(link.block)
+        if not blocks:
+            return False
+        try:
+            with understood():
+                add_turbine(text, self.read, name, blocks)
+        except NotEvaluated as error:
+            self.read.remarks.left_out(place, f"air chamber at {link.item.title}: {error}", "pto")
+        return True
 
     def _chain(self, text: CaseText, link: Link, place: str, name: str, start: float) -> bool:
         """Write what blocks of PTO-Sim drive an actuator; whether they do."""

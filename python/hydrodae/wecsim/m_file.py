@@ -82,6 +82,18 @@ def calls(path: Path, names: Collection[str]) -> list[list[Any]]:
     return found
 
 
+def leading_variables(path: Path) -> dict[str, Entry]:
+    """Variables that a function sets before its first block; empty for other files."""
+    parts = statements(path.read_text(encoding="utf-8", errors="replace"))
+    if not parts or parts[0].tokens[0].text != "function":
+        return {}
+    body = parts[1:]
+    end = next((k for k, p in enumerate(body) if p.tokens[0].text in _OPENERS), len(body))
+    read = InputFile(path)
+    _Run(read).block(body[:end], 0, True)
+    return read.variables
+
+
 class _Run:
     """Executes statements in order."""
 

@@ -14,7 +14,7 @@ from hydrodae.wecsim.bodies import Bodies, _short, _six
 from hydrodae.wecsim.objects import InputFile, Item
 from hydrodae.wecsim.slx import Block
 from hydrodae.wecsim.text import CaseText
-from hydrodae.wecsim.topology import plain_name
+from hydrodae.wecsim.topology import MOORDYN, plain_name
 
 
 def add_mooring(
@@ -29,7 +29,7 @@ def add_mooring(
         return
     if block.kind == "MooringMatrix":
         _matrix(text, item, body, bodies)
-    elif block.kind == "MoorDynConnection" or item.number_of("moorDyn"):
+    elif block.kind in MOORDYN or item.number_of("moorDyn"):
         _moordyn(text, item, body, bodies, read)
     else:
         _all_used(item)

@@ -64,7 +64,7 @@ def find_chain(actuator: Block, core: str, read: InputFile) -> Chain | None:
     driver = actuator.drivers.get("in:1")
     if driver is None or driver[0].library != LIBRARY:
         return None
-    blocks = [block for block in _upstream(driver[0], actuator) if block.library == LIBRARY]
+    blocks = [block for block in upstream(driver[0], actuator) if block.library == LIBRARY]
     chain = Chain("hydraulicCyl")
     for block in blocks:
         if block.kind == _ACCUMULATOR:
@@ -91,7 +91,7 @@ def find_chain(actuator: Block, core: str, read: InputFile) -> Chain | None:
     return chain
 
 
-def _upstream(first: Block, stop: Block) -> Iterator[Block]:
+def upstream(first: Block, stop: Block) -> Iterator[Block]:
     """A block and all that drive it, each once, without what lies beyond the actuator."""
     seen, waiting = {id(stop)}, [first]
     while waiting:
@@ -117,7 +117,7 @@ def _speed(block: Block, chain: Chain, read: InputFile) -> None:
     if driver is None or driver[0].kind != "PID Controller":
         return
     controller = driver[0]
-    constants = [b for b in _upstream(controller, block) if b.kind == "Constant"]
+    constants = [b for b in upstream(controller, block) if b.kind == "Constant"]
     if len(constants) == 1:
         chain.speed = _number(constants[0], "Value", read)
         chain.gains = (_number(controller, "P", read), _number(controller, "I", read))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from xml.etree import ElementTree
@@ -63,10 +64,19 @@ class Block:
 
 @dataclass
 class Model:
-    """Blocks of a model, subsystems taken apart; `path` is the file."""
+    """Blocks of a model, subsystems taken apart.
+
+    Attributes
+    ----------
+    path : Path
+    blocks : list of Block
+    functions : list of set of str
+        Names of the arguments of each MATLAB function, those inside blocks of libraries too.
+    """
 
     path: Path
     blocks: list[Block]
+    functions: list[set[str]] = field(default_factory=list)
 
     def place(self, block: Block) -> str:
         """Model and block, as remarks have it."""
@@ -114,7 +124,17 @@ class _Reader:
             raise CaseError(f"{self.path}: there is no model in this file")
         self._system(system, "", "", "simulink")
         self._close()
-        return Model(self.path, list(self.blocks.values()))
+        return Model(self.path, list(self.blocks.values()), self._functions())
+
+    def _functions(self) -> list[set[str]]:
+        found = []
+        for name in self.archive.archive.namelist():
+            if re.fullmatch(r"simulink/stateflow/chart_\d+\.xml", name):
+                for p in self.archive.xml(name).iter("P"):
+                    head = re.match(r"\s*function\b[^(]*\(([^)]*)\)", p.text or "")
+                    if p.get("Name") == "script" and head:
+                        found.append({word.strip() for word in head[1].split(",")})
+        return found
 
     def _opened(self, system: ElementTree.Element, folder: str) -> tuple[ElementTree.Element, str]:
         """A system from the file that it refers to, if it does, and the folder of that file."""
@@ -193,6 +213,8 @@ class _Reader:
         ports.sort(key=lambda pair: int(pair[1].get("Port", "1") or 1))
         actuated = any(e.get("BlockType") == "Inport" for e, _ in ports)
         block.kind = "Rigid Body" if "body" in block.parameters else block.kind
+        if "mooring" in block.parameters:
+            block.kind = block.parameters.get("AncestorBlock", "").rpartition("/")[2] or block.kind
         for element, values in ports:
             if element.get("BlockType") == "PMIOPort":
                 side = values.get("Side", "Left").lower()

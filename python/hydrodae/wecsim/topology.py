@@ -27,6 +27,8 @@ _WORDS = {
     "solid": "body",
     "inertia": "body",
 }
+#: Blocks of lines of MoorDyn, of the present library and of older ones.
+MOORDYN = ("MoorDynConnection", "MoorDyn")
 JOINTS = ("Floating (3DOF)", "Floating (6DOF)", "Rotational", "Translational", "Spherical")
 
 
@@ -86,12 +88,15 @@ class Topology:
         Mooring blocks, and the group that each holds.
     names : dict of str
         Body names by their number, from the blocks.
+    flexible : list of (Block, int)
+        Blocks of bodies with generalised modes, and their numbers.
     """
 
     groups: dict[int, Group]
     links: list[Link]
     moorings: list[tuple[Block, int]]
     names: dict[int, str]
+    flexible: list[tuple[Block, int]] = field(default_factory=list)
 
 
 def plain_name(text: str, fallback: str) -> str:
@@ -166,7 +171,7 @@ class _Finder:
             self._left_out(block, "hangs on nothing", "body")
             return
         if block.kind == "Flex Body":
-            self._left_out(block, "generalised body modes; the body is taken as rigid", "modes")
+            self.topology.flexible.append((block, item.number))
         name = plain_name(block.own, item.title)
         if re.fullmatch(r"rigid_body_?\d*", name):
             name = f"body{item.number}"
@@ -177,7 +182,7 @@ class _Finder:
         kind = block.kind
         if kind in ("Fixed", "Global Reference Frame", "Rigid Body", "Flex Body", "MoorDynCaller"):
             return
-        if kind.startswith("Mooring") or kind == "MoorDynConnection":
+        if kind.startswith("Mooring") or kind in MOORDYN:
             net = block.nets.get("lconn:1")
             if net is None:
                 self._left_out(block, "mooring that holds nothing", "mooring")
