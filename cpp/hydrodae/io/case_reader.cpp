@@ -81,10 +81,10 @@ void for_each_entry(const toml::table& root, const std::string& name, Places& pl
   }
 }
 
-/// Reads an entry of a list of typed structs: calls `read(std::type_identity<T>{})` with the one of
-/// its `type`. `for_each_type` calls with each of them.
+/// Reads an entry of a list of typed structs: calls `read(table, std::type_identity<T>{})` with the
+/// one of its `type`. `for_each_type` calls with each of them.
 template <class ForEach, class Read>
-void read_typed(const Table& table, Places& places, const ForEach& for_each, const Read& read) {
+void read_typed(Table table, Places& places, const ForEach& for_each, const Read& read) {
   std::vector<std::string> types;
   for_each([&]<class T>(std::type_identity<T>) { types.emplace_back(T::type); });
   Key key{"type", "-", any_value, {types.begin(), types.end()}};
@@ -93,9 +93,17 @@ void read_typed(const Table& table, Places& places, const ForEach& for_each, con
     missing_key(table, "type", "-", "Kind of " + table.kind + ": " + joined(types));
   std::string type;
   read_value(*node, key, type);
+  table.other_types = [&] {
+    std::vector<std::string> found;
+    for_each([&]<class T>(std::type_identity<T>) {
+      if (takes_all(valid_keys<T>(), table.node))
+        found.emplace_back(T::type);
+    });
+    return found;
+  };
   for_each([&]<class T>(std::type_identity<T> of) {
     if (type == T::type)
-      read(of);
+      read(table, of);
   });
 }
 
@@ -135,9 +143,10 @@ struct TableReader {
                   std::vector<OneOf<S, T...>> model::Scene::* member) const {
     const auto types = [](const auto& visit) { OneOf<S, T...>::for_each_type(visit); };
     for_each_entry(root, name, scene.places, [&](const Table& entry) {
-      read_typed(entry, scene.places, types, [&]<class Own>(std::type_identity<Own>) {
-        (scene.*member).emplace_back(read_table<Own>(entry, scene.places));
-      });
+      read_typed(entry, scene.places, types,
+                 [&]<class Own>(const Table& own, std::type_identity<Own>) {
+                   (scene.*member).emplace_back(read_table<Own>(own, scene.places));
+                 });
     });
   }
   void operator()(const std::string& name, std::vector<model::Joint> model::Scene::* member) const {
@@ -149,10 +158,11 @@ struct TableReader {
   void operator()(const std::string& name, model::Forces model::Scene::* member) const {
     const auto types = [](const auto& visit) { model::for_each_force_type(visit); };
     for_each_entry(root, name, scene.places, [&](const Table& entry) {
-      read_typed(entry, scene.places, types, [&]<class Force>(std::type_identity<Force>) {
-        std::get<std::vector<Force>>(scene.*member)
-            .push_back(read_table<Force>(entry, scene.places));
-      });
+      read_typed(entry, scene.places, types,
+                 [&]<class Force>(const Table& own, std::type_identity<Force>) {
+                   std::get<std::vector<Force>>(scene.*member)
+                       .push_back(read_table<Force>(own, scene.places));
+                 });
     });
   }
 };

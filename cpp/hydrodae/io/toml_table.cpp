@@ -12,6 +12,20 @@ std::string path_of(const Table& table, std::string_view key) {
   return (table.path.empty() ? "" : table.path + ".") + std::string(key);
 }
 
+/// Text "; types with all the keys given: a, b", or "" if no type has them.
+std::string types_hint(const Table& table) {
+  const std::vector<std::string> types =
+      table.other_types ? table.other_types() : std::vector<std::string>{};
+  return types.empty() ? "" : "; types with all the keys given: " + joined(types);
+}
+
+std::vector<std::string> keys_of(const toml::table& node) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : node)
+    keys.emplace_back(key.str());
+  return keys;
+}
+
 } // namespace
 
 void check_keys(const Table& table, const std::vector<std::string>& valid) {
@@ -20,9 +34,15 @@ void check_keys(const Table& table, const std::vector<std::string>& valid) {
       continue;
     throw CaseError(place_of(key.source()), path_of(table, key.str()),
                     "unknown key " + in_quotes(key.str()) + " in " + table.label +
-                        (table.type.empty() ? "" : " of type " + table.type) +
-                        suggestion(key.str(), valid));
+                        (table.type.empty() ? "" : " of type " + table.type) + types_hint(table) +
+                        suggestion(key.str(), valid, keys_of(table.node)));
   }
+}
+
+bool takes_all(const std::vector<std::string>& valid, const toml::table& node) {
+  return std::all_of(node.begin(), node.end(), [&](const auto& entry) {
+    return std::find(valid.begin(), valid.end(), entry.first.str()) != valid.end();
+  });
 }
 
 const toml::node* find_key(const Table& table, Key& key, Places& places) {

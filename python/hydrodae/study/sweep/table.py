@@ -16,7 +16,7 @@ from hydrodae.errors import CaseError
 from hydrodae.study.sweep.journal import Row
 from hydrodae.study.sweep.means import add_means, control_columns, uncontrolled
 from hydrodae.study.sweep.measures import ENDS
-from hydrodae.study.sweep.plan import RUNG, Study, point_key
+from hydrodae.study.sweep.plan import Study, point_key
 from hydrodae.support import outputs
 
 if TYPE_CHECKING:
