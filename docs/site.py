@@ -19,6 +19,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import api
+import kernel
 
 from hydrodae.support.extras import install_command
 
@@ -68,6 +69,8 @@ def main(arguments: Sequence[str] = ()) -> int:
     if importlib.util.find_spec("mkdocs") is None:
         print(f"the site needs mkdocs: {install_command('docs')}", file=sys.stderr)
         return 2
+    if not kernel.BUILT:
+        print(f"the kernel is not built: {api.FOLDER}/python.md has no methods of hydrodae.Scene")
     gather()
     command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet"]
     return subprocess.run([*command, "-f", str(ROOT / "mkdocs.yml")], check=False).returncode
