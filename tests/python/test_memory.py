@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -21,6 +23,8 @@ from tests.verification.point_absorbers import Table
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.memory import ExponentialMemory, MemoryFitWarning, fit_memory
 from hydrodae.hdb.memory.clock import Clock
+from hydrodae.hdb.memory.modes import Modes, Problem
+from hydrodae.hdb.memory.passivity import is_passive, local_minima
 
 
 @pytest.fixture(scope="module")
@@ -99,6 +103,23 @@ def test_passivity_finds_a_narrow_dip() -> None:
     assert dip.omega == pytest.approx(w0, abs=1e-4)
     assert dip.relative == pytest.approx(exact_dip, rel=1e-6)
     assert dip.relative == pytest.approx(a / (a**2 + w0**2) - g / (2 * d), rel=1e-3)
+
+
+@pytest.mark.parametrize(("below", "passive"), [(4e-5, True), (6e-5, False), (1e-3, False)])
+def test_the_limit_of_passivity(below: float, passive: bool) -> None:
+    """Re H of 1/(s + a) is a/(a^2 + w^2), at most 1/a; a narrow mode of residue -r digs r/d.
+
+    A dip to 5e-5 of the largest damping below zero is what the fit takes for rounding.
+    """
+    a, w0, d = 1.0, 3.0, 1e-3
+    r = d * (a / (a**2 + w0**2) + below / a)
+    poles = np.array([-a, -d + 1j * w0])
+    vectors = np.array([[1.0], [1j * np.sqrt(r)]])
+    modes = Modes(poles, vectors, np.ones(2), np.zeros(1))
+    found = local_minima(modes, 5.0)
+    assert found.lowest / found.largest == pytest.approx(-below, abs=2e-6)
+    problem = cast(Problem, SimpleNamespace(samples=SimpleNamespace(omega=np.array([5.0]))))
+    assert is_passive(modes, problem) is passive
 
 
 @pytest.mark.parametrize(
