@@ -10,7 +10,10 @@ _LINEARISE = f"{_ROOM}/linearise.py"
 
 SUBJECT = Subject(
     "spectral",
-    ("tests/verification/test_spectral.py", "tests/verification/test_chamber_spectral.py"),
+    (
+        *("tests/python/test_rate_laws.py", "tests/verification/test_spectral.py"),
+        "tests/verification/test_chamber_spectral.py",
+    ),
     (
         Mutant(_FACTORS, "np.sqrt(8.0 / np.pi * np.maximum", "1.03 * np.sqrt(8.0 / np.pi * np.maximum"),
         Mutant(_FACTORS, "3.0 * np.sqrt(0.5 * np.pi) if", "3.09 * np.sqrt(0.5 * np.pi) if"),
@@ -22,7 +25,7 @@ SUBJECT = Subject(
         Mutant(_FACTORS, "return work / sigma, mean", "return work, mean"),
         Mutant(_FACTORS, "return 2.0 * work / amplitude, mean", "return work / amplitude, mean"),
         Mutant(_FACTORS, "np.sqrt(2.0 * np.maximum(values, 0.0))", "np.sqrt(np.maximum(values, 0.0))"),
-        Mutant(_FACTORS, "- rough + better", "+ 0.0"),
+        Mutant(_FACTORS, "np.full(z.shape, 0.5 / np.pi)", "np.full(z.shape, 0.49 / np.pi)"),
         Mutant(_LAWS, "kinetic * np.sign(v)", "0.97 * kinetic * np.sign(v)"),
         Mutant(_LAWS, "slip + (stick - slip) *", "slip + 0.0 *"),
         Mutant(_LAWS, "g * direction + viscous * v", "g * direction"),
