@@ -16,7 +16,9 @@ SUBJECT = Subject(
         *("tests/python/test_input_files.py", "tests/python/test_simulation.py"),
     ),
     (
-        Mutant(_CHECKPOINT, '"input_files", model::text_of_files(scene.files)', '"input_files", ""'),
+        Mutant(
+            _CHECKPOINT, '"input_files", model::text_of_files(scene.files)', '"input_files", ""'
+        ),
         Mutant(_CHECKPOINT, '"case_text", scene.text', '"case_text", ""'),
         Mutant(_CHECKPOINT, '"version", HYDRODAE_VERSION', '"version", ""'),
         Mutant(
@@ -26,4 +28,4 @@ SUBJECT = Subject(
         ),
     ),
     compiled=True,
-)  # fmt: skip
+)

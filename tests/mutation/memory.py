@@ -19,18 +19,30 @@ SUBJECT = Subject(
     (
         Mutant(_PASSIVITY, "ACCEPTED = -5e-5", "ACCEPTED = -5e-4"),
         Mutant(_PASSIVITY, "found.lowest >= ACCEPTED", "found.lowest > -1.0"),
-        Mutant(_PASSIVITY, "0.5 * (first - second), matrices[:, 1, 0])", "0.5 * (first - second), 0.0)"),
+        Mutant(
+            _PASSIVITY, "0.5 * (first - second), matrices[:, 1, 0])", "0.5 * (first - second), 0.0)"
+        ),
         Mutant(_PASSIVITY, "inner_values.min(initial=values[:, 0].min())", "values[:, 0].min()"),
         Mutant(_VERDICT, "PASSIVE_LIMIT = -1e-4", "PASSIVE_LIMIT = -1e-3"),
         Mutant(_VERDICT, 'if not report.get("target_met", True):', "if False:"),
-        Mutant(_MODEL, "np.exp(np.outer(np.asarray(time, dtype=float), self.poles))",
-               "np.exp(1.03 * np.outer(np.asarray(time, dtype=float), self.poles))"),
-        Mutant(_MODEL, "0.5 / (s - self.poles), 0.5 / (s - self.poles.conj())",
-               "0.5 / (s - self.poles), 0.5 / (s - self.poles)"),
+        Mutant(
+            _MODEL,
+            "np.exp(np.outer(np.asarray(time, dtype=float), self.poles))",
+            "np.exp(1.03 * np.outer(np.asarray(time, dtype=float), self.poles))",
+        ),
+        Mutant(
+            _MODEL,
+            "0.5 / (s - self.poles), 0.5 / (s - self.poles.conj())",
+            "0.5 / (s - self.poles), 0.5 / (s - self.poles)",
+        ),
         Mutant(_MODEL, "left.conj(), right.conj()", "left, right"),
         Mutant(_MODEL, "np.any(self.poles.real >= 0.0)", "False"),
         Mutant(_MODEL, "for _ in range(2):", "for _ in range(0):"),
-        Mutant(_MODEL, "2 * self.poles.size - np.count_nonzero", "2 * self.poles.size + 0 * np.count_nonzero"),
+        Mutant(
+            _MODEL,
+            "2 * self.poles.size - np.count_nonzero",
+            "2 * self.poles.size + 0 * np.count_nonzero",
+        ),
         Mutant(_FRACTIONS, "inverse, -2.0 * poles.imag", "inverse, 2.0 * poles.imag"),
         Mutant(_FRACTIONS, "a * (a * a + b * b + square)", "a * (a * a + b * b - square)"),
         Mutant(_FRACTIONS, "-2.0 * b * real / size", "-1.94 * b * real / size"),
@@ -40,4 +52,4 @@ SUBJECT = Subject(
         Mutant(_DATA, "NOISE = 1e-8", "NOISE = 1e-3"),
         Mutant(_DATA, "ZERO_WEIGHT = 3.0", "ZERO_WEIGHT = 0.0"),
     ),
-)  # fmt: skip
+)

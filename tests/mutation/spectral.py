@@ -15,16 +15,22 @@ SUBJECT = Subject(
         "tests/verification/test_chamber_spectral.py",
     ),
     (
-        Mutant(_FACTORS, "np.sqrt(8.0 / np.pi * np.maximum", "1.03 * np.sqrt(8.0 / np.pi * np.maximum"),
+        Mutant(
+            _FACTORS, "np.sqrt(8.0 / np.pi * np.maximum", "1.03 * np.sqrt(8.0 / np.pi * np.maximum"
+        ),
         Mutant(_FACTORS, "3.0 * np.sqrt(0.5 * np.pi) if", "3.09 * np.sqrt(0.5 * np.pi) if"),
         Mutant(_FACTORS, "else 8.0 * np.sqrt(2.0 / np.pi)", "else 8.24 * np.sqrt(2.0 / np.pi)"),
         Mutant(_FACTORS, "8.0 / (3.0 * np.pi) * np.abs(amplitude)", "0.82 * np.abs(amplitude)"),
         Mutant(_FACTORS, "0.25 * np.pi * (NODES + 1.0)", "0.24 * np.pi * (NODES + 1.0)"),
         Mutant(_FACTORS, "np.sqrt(1.0 - up**2)", "(1.0 - up**2)"),
-        Mutant(_FACTORS, "2.0 * (speed * np.cos(angle) ** 2)", "2.0 * (speed * np.sin(angle) ** 2)"),
+        Mutant(
+            _FACTORS, "2.0 * (speed * np.cos(angle) ** 2)", "2.0 * (speed * np.sin(angle) ** 2)"
+        ),
         Mutant(_FACTORS, "return work / sigma, mean", "return work, mean"),
         Mutant(_FACTORS, "return 2.0 * work / amplitude, mean", "return work / amplitude, mean"),
-        Mutant(_FACTORS, "np.sqrt(2.0 * np.maximum(values, 0.0))", "np.sqrt(np.maximum(values, 0.0))"),
+        Mutant(
+            _FACTORS, "np.sqrt(2.0 * np.maximum(values, 0.0))", "np.sqrt(np.maximum(values, 0.0))"
+        ),
         Mutant(_FACTORS, "np.full(z.shape, 0.5 / np.pi)", "np.full(z.shape, 0.49 / np.pi)"),
         Mutant(_LAWS, "kinetic * np.sign(v)", "0.97 * kinetic * np.sign(v)"),
         Mutant(_LAWS, "slip + (stick - slip) *", "slip + 0.0 *"),
@@ -36,4 +42,4 @@ SUBJECT = Subject(
         Mutant(_LINEARISE, "np.sum(factor * motion.covariance)", "np.sum(factor) * 1.0"),
         Mutant(_LINEARISE, "load.axes, 1, 2) @ factor @ load.axes", "load.axes, 1, 2) @ load.axes"),
     ),
-)  # fmt: skip
+)

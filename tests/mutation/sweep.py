@@ -26,7 +26,7 @@ SUBJECT = Subject(
         Mutant(_PLAN, "*((self.repetitions.seeds,) if controlled else ())", "*()"),
         Mutant(_PLAN, "set(study.dimensions) - {*study.over, RUNG} != {", "{1} == {"),
         Mutant(_PLAN, "x >= 0.0 for column", "x >= -1e9 for column"),
-        Mutant(_PLAN, "json.dumps(point, sort_keys=True)", 'json.dumps(point)[:20]'),
+        Mutant(_PLAN, "json.dumps(point, sort_keys=True)", "json.dumps(point)[:20]"),
         Mutant(_POINTS, "draw.permutation(samples)", "draw.integers(samples, size=samples)"),
         Mutant(_POINTS, "itertools.product(*kinds)", "zip(*kinds)"),
         Mutant(_POINTS, "if len(keys) != len(set(keys))", "if False"),
@@ -34,6 +34,8 @@ SUBJECT = Subject(
         Mutant(_TABLE, "50.0 * (ends[1] - ends[0])", "100.0 * (ends[1] - ends[0])"),
         Mutant(_ESTIMATE, "stdtrit(n - 1, 0.975)", "stdtrit(n - 1, 0.95)"),
         Mutant(_ESTIMATE, "y.std(ddof=1)", "y.std()"),
-        Mutant(_REPETITIONS, "range(max(seeds) + 1, max(seeds) + 1 +", "range(max(seeds), max(seeds) +"),
+        Mutant(
+            _REPETITIONS, "range(max(seeds) + 1, max(seeds) + 1 +", "range(max(seeds), max(seeds) +"
+        ),
     ),
-)  # fmt: skip
+)
