@@ -12,7 +12,7 @@ SUBJECT = Subject(
     "sweep",
     (
         *("tests/python/test_journal.py", "tests/python/test_control_variates.py"),
-        *("tests/python/test_sweep_terms.py", "tests/python/test_sweep.py"),
+        *("tests/python/test_input_files.py", "tests/python/test_sweep.py"),
     ),
     (
         Mutant(_JOURNAL, '"case": _digest(case.text)', '"case": ""'),
@@ -22,7 +22,7 @@ SUBJECT = Subject(
         Mutant(_JOURNAL, "fcntl.LOCK_EX | fcntl.LOCK_NB", "fcntl.LOCK_SH | fcntl.LOCK_NB"),
         Mutant(_JOURNAL, 'row.pop("crc32") == _checksum(row)', 'row.pop("crc32")'),
         Mutant(_JOURNAL, "self._file.truncate(len(whole) + 1)", "pass"),
-        Mutant(_JOURNAL, "        os.fsync(self._file.fileno())", "        pass"),
+        Mutant(_JOURNAL, "        self._file.flush()\n", "        pass\n"),
         Mutant(_PLAN, "*((self.repetitions.seeds,) if controlled else ())", "*()"),
         Mutant(_PLAN, "set(study.dimensions) - {*study.over, RUNG} != {", "{1} == {"),
         Mutant(_PLAN, "x >= 0.0 for column", "x >= -1e9 for column"),

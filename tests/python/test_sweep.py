@@ -189,11 +189,22 @@ def test_means_over_repetitions_and_annual_energy(folder: Path) -> None:
             'height = "h"\nperiod = "t"\n',
             "lacks: 9 m, 5 s",
         ),
+        (
+            '[grid]\nh = [9.0]\nt = [5.0]\nx = [1.0]\n[scatter]\nfile = "seas.csv"\n'
+            'height = "h"\nperiod = "t"\n',
+            "needs a .grid. of height and period",
+        ),
+        (
+            '[grid]\nh = [9.0]\nt = [5.0]\n[scatter]\nfile = "negative.csv"\n'
+            'height = "h"\nperiod = "t"\n',
+            "negative or not finite",
+        ),
     ],
 )
 def test_wrong_studies_are_refused(folder: Path, text: str, told: str) -> None:
     (folder / "twice.csv").write_text("a,a\n1,2\n")
     (folder / "seas.csv").write_text("height,period,hours\n9.0,5.0,10\n")
+    (folder / "negative.csv").write_text("height,period,hours\n9.0,5.0,-10\n")
     with pytest.raises(hydrodae.CaseError, match=told):
         hydrodae.sweep(write_study(folder, text), folder / "study.nc", jobs=1)
 
