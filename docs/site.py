@@ -19,6 +19,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import api
+import kernel
+import search
 
 from hydrodae.support.extras import install_command
 
@@ -54,12 +56,15 @@ def gather() -> None:
         copy = SOURCE / file.relative_to(ROOT)
         copy.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(file, copy)
-    for page in (SOURCE / "docs" / "reference").glob("*.md"):
-        text = KEYS.sub(r'<div class="keys" markdown>\n\n\g<0>\n</div>\n', page.read_text())
-        page.write_text(text)
     for path, text in api.pages().items():
         (SOURCE / path).parent.mkdir(exist_ok=True)
         (SOURCE / path).write_text(text)
+    for page in SOURCE.rglob("*.md"):
+        path = page.relative_to(SOURCE).as_posix()
+        text = page.read_text()
+        if path.startswith("docs/reference/"):
+            text = KEYS.sub(r'<div class="keys" markdown>\n\n\g<0>\n</div>\n', text)
+        page.write_text(search.front_matter(path) + text)
 
 
 def main(arguments: Sequence[str] = ()) -> int:
@@ -68,6 +73,8 @@ def main(arguments: Sequence[str] = ()) -> int:
     if importlib.util.find_spec("mkdocs") is None:
         print(f"the site needs mkdocs: {install_command('docs')}", file=sys.stderr)
         return 2
+    if not kernel.BUILT:
+        print(f"the kernel is not built: {api.FOLDER}/python.md has no methods of hydrodae.Scene")
     gather()
     command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet"]
     return subprocess.run([*command, "-f", str(ROOT / "mkdocs.yml")], check=False).returncode

@@ -12,6 +12,7 @@
 #include <iostream>
 #include <new>
 #include <optional>
+#include <utility>
 
 #include "arguments.h"
 #include "hydrodae/core/error.h"
@@ -58,15 +59,20 @@ private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Prints " 1234 W (1100 to 1380)", without unknown parts.
+/// Prints " 1.234 kW (1.1 to 1.38)", without unknown parts; the power decides the unit.
 void print_mean(double power, const std::optional<hydrodae::Interval>& interval) {
-  std::printf(" %.4g W", power);
+  const double size = std::abs(power);
+  const auto [factor, unit] = size >= 1e9   ? std::pair(1e-9, "GW")
+                              : size >= 1e6 ? std::pair(1e-6, "MW")
+                              : size >= 1e3 ? std::pair(1e-3, "kW")
+                                            : std::pair(1.0, "W");
+  std::printf(" %.4g %s", factor * power, unit);
   if (interval)
-    std::printf(" (%.3g to %.3g)", interval->low, interval->high);
+    std::printf(" (%.3g to %.3g)", factor * interval->low, factor * interval->high);
 }
 
-/// Prints "mean absorbed power after 30 s: pto1 1200 W (1100 to 1310), pto2 3.4 W (3.1 to 3.8), in
-/// all 1203 W (1100 to 1310); in brackets: 95 % interval of the sea state".
+/// Prints "mean absorbed power after 30 s: pto1 1.2 kW (1.1 to 1.31), pto2 3.4 W (3.1 to 3.8), in
+/// all 1.203 kW (1.1 to 1.31); in brackets: 95 % interval of the sea state".
 void print_power(const hydrodae::RunStatistics& statistics) {
   if (statistics.mean_power.empty())
     return;

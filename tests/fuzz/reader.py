@@ -63,12 +63,12 @@ def read_study_file(path: Path) -> None:
 
 def read_journal(path: Path) -> None:
     """The table of a sweep whose journal has all rows."""
-    from hydrodae.study.sweep import journal, plan, table
+    from hydrodae.study.sweep import journal, plan, table, text
 
     study = plan.read_study(path.with_name("study.toml"))
     with journal.Journal(path, study.identity(hydrodae.Case(path=study.case))) as found:
         if {plan.point_key(point) for point in study.points} <= set(found.rows):
-            table.text(table.dataset(study, found.rows, {}))
+            text(table.dataset(study, found.rows, {}))
 
 
 def read_record(path: Path) -> None:

@@ -192,6 +192,22 @@ def test_refusals(case: Path, tmp_path: Path) -> None:
     assert checkpoint.read_text() == "a note"
 
 
+def test_a_checkpoint_of_another_database_is_refused(repository: Path, tmp_path: Path) -> None:
+    """Of one that differs by one number; what is put back as it was goes on."""
+    for name in ("decay.toml", "hydro.h5"):
+        shutil.copy(repository / "cases" / "sphere" / name, tmp_path / name)
+    case, output, database = (tmp_path / n for n in ("decay.toml", "out.h5", "hydro.h5"))
+    with pytest.raises(RunInterrupted):
+        hydrodae.run(case, output, checkpoint=0.0, progress=lambda time, _: time < 5.0)
+    whole = database.read_bytes()
+    with h5py.File(database, "r+") as file:
+        file["radiation_damping"][0, 0, 0] += 1.0
+    with pytest.raises(CaseError, match=r"other inputs.*hydro\.h5"):
+        hydrodae.run(case, output, resume=True)
+    database.write_bytes(whole)
+    assert hydrodae.run(case, output, resume=True).status == "completed"
+
+
 def test_a_damaged_checkpoint_is_refused(case: Path, tmp_path: Path) -> None:
     """Sizes of its collections of texts, which the HDF5 library takes as they are."""
     output = tmp_path / "killed.h5"

@@ -45,6 +45,8 @@ def test_run_writes_beside_the_case_by_default_and_can_be_quiet(kernel, case_fil
         (["run", "{case}", "--set", "slover.rtol=1"], "unknown key slover.rtol; the nearest"),
         (["run", "{case}", "-o", "{case}/out.h5"], "flap_decay.toml"),
         (["run", "{case}", "-o", "{folder}/a.png"], "then hydrodae plot {folder}/a.h5 -o"),
+        (["run", "{case}", "-o", "{folder}/a.mat"], "then MATLAB reads it: h5read('{folder}/a.h5'"),
+        (["run", "{case}", "-o", "{folder}/a.html"], "then hydrodae report {folder}/a.h5 -o"),
         (["plot", "{folder}/none.h5"], "no such results file"),
         (["plot", "{results}", "joints/hinge1/angel"], "nearest name is 'joints/hinge1/angle'"),
         (["plot", "{results}", "joints/*/torque"], "no channel matches 'joints/*/torque'"),

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -21,6 +23,8 @@ from tests.verification.point_absorbers import Table
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.memory import ExponentialMemory, MemoryFitWarning, fit_memory
 from hydrodae.hdb.memory.clock import Clock
+from hydrodae.hdb.memory.modes import Modes, Problem
+from hydrodae.hdb.memory.passivity import eigenvalues, is_passive, local_minima
 
 
 @pytest.fixture(scope="module")
@@ -93,12 +97,30 @@ def test_passivity_finds_a_narrow_dip() -> None:
         np.array([[1.0, -g]], dtype=complex),
         np.zeros((1, 1)),
     )
+    assert memory.n_states == 3  # one of the real pole, two of the pair
     dip = memory.passivity()
     s = 1j * dip.omega
     exact_dip = (1 / (s + a) - g / 2 * (1 / (s + d - 1j * w0) + 1 / (s + d + 1j * w0))).real
     assert dip.omega == pytest.approx(w0, abs=1e-4)
     assert dip.relative == pytest.approx(exact_dip, rel=1e-6)
     assert dip.relative == pytest.approx(a / (a**2 + w0**2) - g / (2 * d), rel=1e-3)
+
+
+@pytest.mark.parametrize(("below", "passive"), [(4e-5, True), (6e-5, False), (1e-3, False)])
+def test_the_limit_of_passivity(below: float, passive: bool) -> None:
+    """Re H of 1/(s + a) is a/(a^2 + w^2), at most 1/a; a narrow mode of residue -r digs r/d.
+
+    A dip to 5e-5 of the largest damping below zero is what the fit takes for rounding.
+    """
+    a, w0, d = 1.0, 3.0, 1e-3
+    r = d * (a / (a**2 + w0**2) + below / a)
+    poles = np.array([-a, -d + 1j * w0])
+    vectors = np.array([[1.0], [1j * np.sqrt(r)]])
+    modes = Modes(poles, vectors, np.ones(2), np.zeros(1))
+    found = local_minima(modes, 5.0)
+    assert found.lowest / found.largest == pytest.approx(-below, abs=2e-6)
+    problem = cast(Problem, SimpleNamespace(samples=SimpleNamespace(omega=np.array([5.0]))))
+    assert is_passive(modes, problem) is passive
 
 
 @pytest.mark.parametrize(
@@ -145,6 +167,23 @@ def test_coordinate_without_radiation_is_left_out(exact: Table) -> None:
     assert not np.any(memory.output_matrix[3])
     assert memory.added_mass_inf[3] == pytest.approx([0.0, 0.0, 0.0, 7.0])
     assert memory.report["h_error_band"] < 1e-5
+
+
+def test_coordinate_with_little_radiation_is_kept(exact: Table) -> None:
+    """A millionth of the damping of the others is no noise: the same poles, scaled residues."""
+    size = np.array([1.0, 1e-3, 1.0])
+    scale = np.outer(size, size)
+    data = Table(LABELS, exact.omega, scale * exact.added_mass, scale * exact.radiation_damping)
+    memory = fit_memory(data, LABELS)
+    largest = scale * np.abs(exact_transfer(exact.omega)).max(axis=0)
+    off = np.abs(memory.transfer(exact.omega) - scale * exact_transfer(exact.omega))
+    assert (off / largest).max() < 1e-5
+
+
+def test_eigenvalues_of_two_coordinates_are_those_of_any_number() -> None:
+    matrices = np.random.default_rng(1).standard_normal((50, 2, 2))
+    matrices += matrices.transpose(0, 2, 1)
+    np.testing.assert_allclose(eigenvalues(matrices), np.linalg.eigvalsh(matrices), atol=1e-12)
 
 
 def test_uncoupled_coordinates_are_fitted_apart(exact: Table) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -102,6 +103,19 @@ def test_wrong_problems_are_refused(buoy: Path, old: str, new: str, told: str) -
     study.write_text(STUDY.replace(old, new).replace("METHOD", "SLSQP"))
     with pytest.raises(hydrodae.CaseError, match=told):
         hydrodae.optimise(study, study.with_suffix(".nc"))
+
+
+def test_a_problem_without_rungs_names_them_and_each_of_them_works(buoy: Path) -> None:
+    study = buoy.parent / "no_rungs.toml"
+    bare = STUDY.replace("METHOD", "SLSQP").replace('rungs = ["frequency"]\n', "")
+    study.write_text(bare)
+    with pytest.raises(hydrodae.CaseError) as caught:
+        hydrodae.optimise(study, study.with_suffix(".nc"), set={"wave": REGULAR})
+    first, second = re.search(r'rungs = (\[".*?"\]) or (\[".*?"\])', str(caught.value)).groups()  # type: ignore[union-attr]
+    for rungs in (first, second):
+        study.write_text(f"rungs = {rungs}\n{bare}")
+        study.with_suffix(".runs.jsonl").unlink(missing_ok=True)
+        hydrodae.optimise(study, study.with_suffix(".nc"), set={"wave": REGULAR})
 
 
 def test_a_sweep_of_a_problem_names_the_option(buoy: Path) -> None:

@@ -6,10 +6,15 @@ import re
 import shutil
 import subprocess
 import tomllib
+import zipfile
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import pytest
+
+import hydrodae
+from hydrodae.support import licences
 
 NEWEST = 14
 
@@ -43,6 +48,69 @@ def test_recipe_needs_what_the_project_needs(repository: Path, project: dict[str
     host = [name.replace(" ", "") for name in recipe["requirements"]["host"]]
     assert set(project["build-system"]["requires"]) <= set(host)
     assert f"VERSION {recipe['package']['version']} " in cmake
+
+
+def test_licences_are_those_of_what_is_inside(repository: Path, project: dict[str, Any]) -> None:
+    """Every library that CMake asks for is in the list, and every licence in the metadata."""
+    text = licences.LIST.read_text()
+    assert (repository / "LICENSE").read_text() in text
+    assert project["project"]["license"] == licences.expression()
+    assert all((repository / name).is_file() for name in project["project"]["license-files"])
+    cmake = "".join(
+        (repository / name / "CMakeLists.txt").read_text() for name in ("cpp", "python/bindings")
+    )
+    asked = set(
+        re.findall(r"^\s*(?:find_package|find_library|pkg_check_modules)\((\w+)", cmake, re.M)
+    )
+    words = {"Eigen3": "Eigen", "tomlplusplus": "toml++", "Python": None, "Threads": None}
+    missing = {
+        name
+        for name in asked
+        if (said := words.get(name, name)) and said.lower().split("_")[0] not in text.lower()
+    }
+    assert asked >= {"Eigen3", "SUNDIALS", "HDF5", "pugixml"}
+    assert missing == set()
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_an_fmu_has_the_licences_of_what_is_inside(
+    repository: Path, tmp_path: Path, fmi: int
+) -> None:
+    case = repository / "cases" / "sphere" / "decay.toml"
+    path = hydrodae.fmu.export(case, tmp_path / "sphere.fmu", fmi=fmi)
+    with zipfile.ZipFile(path) as archive:
+        told = archive.read("documentation/licenses/license.txt").decode()
+        root = ElementTree.fromstring(archive.read("modelDescription.xml"))
+    assert told == licences.LIST.read_text()
+    assert root.attrib["license"] == licences.expression()
+
+
+def test_every_download_of_scripts_and_workflows_has_a_hash(repository: Path) -> None:
+    """One of sha256sum for each curl; nothing is unpacked from a pipe."""
+    scripts = [*(repository / ".github/workflows").glob("*.yml"), *repository.rglob("*.sh")]
+    downloads = 0
+    for script in scripts:
+        if {".venv", "build"} & set(script.relative_to(repository).parts):
+            continue
+        text = script.read_text()
+        count = len(re.findall(r"\b(?:curl|wget) ", text))
+        assert len(re.findall(r"sha256sum --check", text)) == count, script
+        assert not re.search(r"curl[^\n]*\|", text), script
+        downloads += count
+    assert downloads == 3
+
+
+def test_citation_has_the_version_and_its_date(repository: Path, project: dict[str, Any]) -> None:
+    yaml = pytest.importorskip("yaml")
+    citation = yaml.safe_load((repository / "CITATION.cff").read_text())
+    title, date = re.findall(r"^## \[?(\d[\d.]*)\]? - (\S+)$", changelog(repository), re.M)[0]
+    assert (citation["version"], str(citation["date-released"])) == (title, date)
+    assert citation["license"] in project["project"]["license"].split(" AND ")
+    assert citation["cff-version"] == "1.2.0"
+
+
+def changelog(repository: Path) -> str:
+    return (repository / "CHANGELOG.md").read_text()
 
 
 def test_page_shows_the_program_that_is_built(repository: Path) -> None:

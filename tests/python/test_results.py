@@ -121,7 +121,7 @@ def test_summary_names_the_mean_power_of_each_take_off(results_file):
     results = Results.read(results_file)
     assert "�" in "".join(results.statistics)
     line = next(line for line in results.summary().splitlines() if "mean absorbed" in line)
-    assert line == "  mean absorbed power after 50 s: pto1 1,200 W, pto2 34 W, in all 1,234 W"
+    assert line == "  mean absorbed power after 50 s: pto1 1.2 kW, pto2 34 W, in all 1.234 kW"
 
 
 @pytest.mark.parametrize("status", ["interrupted", "failed"])

@@ -24,6 +24,7 @@ from hydrodae.study.sweep.batches import run_case
 from hydrodae.study.sweep.fatigue import damage_equivalent_load
 from hydrodae.study.sweep.measures import Measure
 from hydrodae.study.sweep.plan import read_study
+from hydrodae.support.units import prefixed
 
 CASE = cart(
     "damping = 1.0",
@@ -69,6 +70,20 @@ def test_grid_has_its_keys_as_dimensions(folder: Path) -> None:
     np.testing.assert_allclose(found["mean_power_absorbed"], power.T, rtol=1e-5)
     assert found["way"].attrs["units"] == "m"
     xarray.testing.assert_identical(found.load(), xarray.load_dataset(folder / "study.nc"))
+
+
+def test_one_row_a_point_is_printed(folder: Path) -> None:
+    """Power c v0^2 / 2 over a long run: the energy of the mass, 0.5 J each kilogram, in 8 s."""
+    study = write_study(
+        folder, '[list]\n"force.pto.damping" = [2e3, 4e3]\n"body.float.mass" = [32e3, 64e3]\n'
+    )
+    lines = text(hydrodae.sweep(study, folder / "study.nc", jobs=1)).splitlines()
+    start = lines.index("mean absorbed power, kW:")
+    assert [line.split() for line in lines[start + 1 : start + 4]] == [
+        ["damping", "mass", "[kg]", "mean", "power"],
+        ["2000", "32000", "1.264"],
+        ["4000", "64000", "2.528"],
+    ]
 
 
 def test_points_of_all_kinds(folder: Path) -> None:
@@ -174,11 +189,22 @@ def test_means_over_repetitions_and_annual_energy(folder: Path) -> None:
             'height = "h"\nperiod = "t"\n',
             "lacks: 9 m, 5 s",
         ),
+        (
+            '[grid]\nh = [9.0]\nt = [5.0]\nx = [1.0]\n[scatter]\nfile = "seas.csv"\n'
+            'height = "h"\nperiod = "t"\n',
+            "needs a .grid. of height and period",
+        ),
+        (
+            '[grid]\nh = [9.0]\nt = [5.0]\n[scatter]\nfile = "negative.csv"\n'
+            'height = "h"\nperiod = "t"\n',
+            "negative or not finite",
+        ),
     ],
 )
 def test_wrong_studies_are_refused(folder: Path, text: str, told: str) -> None:
     (folder / "twice.csv").write_text("a,a\n1,2\n")
     (folder / "seas.csv").write_text("height,period,hours\n9.0,5.0,10\n")
+    (folder / "negative.csv").write_text("height,period,hours\n9.0,5.0,-10\n")
     with pytest.raises(hydrodae.CaseError, match=told):
         hydrodae.sweep(write_study(folder, text), folder / "study.nc", jobs=1)
 
@@ -329,7 +355,8 @@ def test_rungs_of_one_study_stand_side_by_side(tmp_path: Path) -> None:
     assert "annual energy, spectral" in text(found)
     half = found["mean_power_absorbed_interval"] / found["mean_power_absorbed_mean"]
     widest = 100.0 * float(half.sel(rung="time").max())
-    assert f"time, W (95 % interval at most {widest:.2g} % to each side; " in text(found)
+    unit = prefixed(float(power.sel(rung="time").max()), "W")[1]
+    assert f"time, {unit} (95 % interval at most {widest:.2g} % to each side; " in text(found)
 
 
 def test_capture_width_is_power_over_the_flux_of_the_waves(tmp_path: Path) -> None:

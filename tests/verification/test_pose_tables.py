@@ -119,6 +119,20 @@ def test_energy_is_conserved_without_radiation(tmp_path: Path, method: str) -> N
     assert np.abs(total - total[0]).max() < bound * kinetic.max()
 
 
+def test_the_load_of_a_wave_follows_the_pose(tmp_path: Path) -> None:
+    """That of rest times the root of what the tables grow by, at the heave of each moment."""
+    poses = np.linspace(-4.8, 4.8, 25)
+    write_tables(tmp_path, poses)
+    loads = []
+    for table in (np.array([]), poses):
+        results = hydrodae.run(write_case(tmp_path, table, wave=[SWELL], rtol=1e-6))
+        loads.append(results["forces/excitation/float/force"].values[:, 2])
+    rest, load = loads
+    expected = np.sqrt(growth(heave(results))) * rest
+    assert np.ptp(heave(results)) > 4.0
+    np.testing.assert_allclose(load, expected, atol=1e-4 * np.abs(expected).max())
+
+
 def reference_decay(
     folder: Path, poses: Array, times: Array, memory: str, start: float = 3.0
 ) -> Array:

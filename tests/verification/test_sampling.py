@@ -13,6 +13,7 @@ from hydrodae.linear import LinearModel
 from hydrodae.results import sampling
 from hydrodae.starters import create
 from hydrodae.support.arrays import Array
+from hydrodae.support.units import prefixed
 
 STEP, PEAK = 0.5, 8.0  # s
 
@@ -115,7 +116,8 @@ def test_interval_of_a_run_is_that_of_its_power(tmp_path: Path) -> None:
     assert ends == pytest.approx(sampling.mean_interval(power[1:]), rel=2e-3)
     assert results.settled == 30.0
     told = results.summary()
-    assert f" W ({ends[0]:,.3g} to {ends[1]:,.3g}); in brackets: 95 % " in told
+    factor, unit = prefixed(known["mean_power_absorbed"], "W")
+    assert f" {unit} ({factor * ends[0]:.3g} to {factor * ends[1]:.3g}); in brackets: 95 % " in told
     assert "expected of such 170 s" in told
 
 
@@ -176,9 +178,11 @@ def test_executable_prints_the_interval(executable: str, tmp_path: Path) -> None
     ).stdout
     known = hydrodae.Results.read(out).statistics
     power, low, high = (known[f"mean_power_{key}"] for key in ("absorbed", "low", "high"))
+    factor, unit = prefixed(power, "W")
     line = next(line for line in told.splitlines() if line.startswith("mean absorbed power"))
     assert line == (
-        f"mean absorbed power after 30 s: pto {power:.4g} W ({low:.3g} to {high:.3g}); "
+        f"mean absorbed power after 30 s: pto {factor * power:.4g} {unit} "
+        f"({factor * low:.3g} to {factor * high:.3g}); "
         "in brackets: 95 % interval of the sea state"
     )
 
@@ -256,9 +260,10 @@ def test_power_matrix_has_the_interval_of_each_run(tmp_path: Path) -> None:
     np.testing.assert_allclose(found["capture_width_high"] * flux, high)
     half = 50.0 * (high - low) / power
     told = text(found)
+    factor, _ = prefixed(float(power.max()), "W")
     assert f"95 % interval of one run at most {float(half.max()):.2g} % to each side" in told
     for value, near in zip(power.values.ravel(), half.values.ravel(), strict=True):
-        assert f"{value:.4g} +-{near:.2g} %" in told
+        assert f"{factor * value:.4g} +-{near:.2g} %" in told
     joules = [3600.0 * (1000.0 * float(p[0, 0]) + 500.0 * float(p[1, 1])) for p in (low, high)]
     ends = [float(found[f"annual_energy_{end}"]) for end in ("low", "high")]
     assert ends == pytest.approx(joules)

@@ -13,7 +13,7 @@ from hydrodae.commands.cli import main
 from hydrodae.errors import CaseError
 from hydrodae.linear import LinearModel
 from hydrodae.study.spectral import Spectral
-from hydrodae.study.spectral.factors import gauss_drag, lorentz_drag
+from hydrodae.study.spectral.factors import gauss_drag, gauss_law, lorentz_drag, lorentz_law
 
 GAUSS, LORENTZ = np.sqrt(8.0 / np.pi), 8.0 / (3.0 * np.pi)
 MASS, VOLUME, DEPTH, K = 5.0e4, 10.0, 5.0, 6.0e4
@@ -121,6 +121,17 @@ def test_white_noise_on_a_quadratic_damper() -> None:
     assert b * GAUSS * sigma / (2.0 * np.sqrt(K * INERTIA)) < 0.1  # narrow: the ends do not matter
     assert found.rate["bodies/ball/heave"] == pytest.approx(sigma, rel=0.02)
     assert found.damping["law"] == pytest.approx(b * GAUSS * sigma, rel=0.02)
+
+
+@pytest.mark.parametrize("sigma", [1e-3, 2.0])
+def test_drag_along_one_axis_is_exact(sigma: float) -> None:
+    """B = sqrt(8/pi) sigma (Borgman) and 8/(3 pi) |U| (Lorentz): as a vector and as a law."""
+    assert gauss_drag(np.array([[[sigma**2]]]))[0, 0, 0] == pytest.approx(GAUSS * sigma)
+    assert lorentz_drag(np.array([[sigma * 1j]]))[0, 0, 0] == pytest.approx(LORENTZ * sigma)
+    for law_of, factor in ((gauss_law, GAUSS), (lorentz_law, LORENTZ)):
+        damping, mean = law_of(lambda v: v * np.abs(v), sigma)
+        assert damping == pytest.approx(factor * sigma)
+        assert abs(mean) < 1e-9 * sigma**2
 
 
 def test_drag_of_vectors() -> None:

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
+#include <utility>
 
 namespace hydrodae {
 namespace {
@@ -14,6 +16,26 @@ std::string lower(std::string_view text) {
     c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return out;
 }
+
+/// Words of other codes, and the name for each here.
+constexpr std::pair<std::string_view, std::string_view> words_of_others[] = {
+    {"irregular", "jonswap"},
+    {"js", "jonswap"},
+    {"pm", "pierson_moskowitz"},
+    {"issc", "bretschneider"},
+    {"spectrumimport", "table"},
+    {"elevationimport", "measured"},
+    {"airy", "regular"},
+    {"regularcic", "regular"},
+    {"hinge", "revolute"},
+    {"slider", "prismatic"},
+    {"translational", "prismatic"},
+    {"rotational", "revolute"},
+    {"ball", "spherical"},
+    {"hardstop", "end_stop"},
+    {"statespace", "exponential"},
+    {"state_space", "exponential"},
+};
 
 /// Number of edits (insert, delete, replace, swap neighbours) that turn a into b; optimal string
 /// alignment.
@@ -52,6 +74,9 @@ std::string rounded_text(double value, int digits) {
 }
 
 std::string nearest_name(std::string_view wanted, const std::vector<std::string>& names) {
+  for (const auto& [word, name] : words_of_others)
+    if (lower(wanted) == word && std::find(names.begin(), names.end(), name) != names.end())
+      return std::string(name);
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(1, (wanted.size() + 1) / 3) + 1;
   for (const std::string& name : names) {
@@ -64,10 +89,15 @@ std::string nearest_name(std::string_view wanted, const std::vector<std::string>
   return best;
 }
 
-std::string suggestion(std::string_view wanted, const std::vector<std::string>& names) {
+std::string suggestion(std::string_view wanted, const std::vector<std::string>& names,
+                       const std::vector<std::string>& taken) {
   if (names.empty())
     return "; the list is empty";
-  const std::string near = nearest_name(wanted, names);
+  std::vector<std::string> free;
+  std::copy_if(names.begin(), names.end(), std::back_inserter(free), [&](const std::string& name) {
+    return std::find(taken.begin(), taken.end(), name) == taken.end();
+  });
+  const std::string near = nearest_name(wanted, free);
   return (near.empty() ? "" : "; did you mean " + in_quotes(near) + "?") +
          std::string(near.empty() ? "; " : " (") + "valid: " + joined(names) +
          (near.empty() ? "" : ")");

@@ -31,10 +31,13 @@ std::string number_text(double value);
 /// Number with the given digits; two for estimates.
 std::string rounded_text(double value, int digits = 2);
 
-/// Name in `names` nearest to `wanted` by edit distance, or "" if none is near.
+/// Name in `names` that means `wanted`, a word of another code, or is nearest by edit distance; ""
+/// if none is near.
 std::string nearest_name(std::string_view wanted, const std::vector<std::string>& names);
 
-/// Text "; did you mean 'x'? (valid: ...)", or "; there is none" without names.
-std::string suggestion(std::string_view wanted, const std::vector<std::string>& names);
+/// Text "; did you mean 'x'? (valid: ...)", or "; the list is empty" without names. Names in
+/// `taken` are in use: they are valid, but not meant.
+std::string suggestion(std::string_view wanted, const std::vector<std::string>& names,
+                       const std::vector<std::string>& taken = {});
 
 } // namespace hydrodae

@@ -93,16 +93,25 @@ std::string type_of_entry(const Table& table, Places& places,
   return type;
 }
 
-/// Reads an entry of a list of typed structs: calls `read(std::type_identity<T>{})` with the one of
-/// its `type`. `for_each_type` calls with each of them.
+/// Reads an entry of a list of typed structs: calls `read(table, std::type_identity<T>{})` with the
+/// one of its `type`. `for_each_type` calls with each of them.
 template <class ForEach, class Read>
-void read_typed(const Table& table, Places& places, const ForEach& for_each, const Read& read) {
+void read_typed(Table table, Places& places, const ForEach& for_each, const Read& read) {
   std::vector<std::string> types;
   for_each([&]<class T>(std::type_identity<T>) { types.emplace_back(T::type); });
   const std::string type = type_of_entry(table, places, types);
+  table.other_types = [&] {
+    std::vector<std::string> found;
+    for_each([&]<class T>(std::type_identity<T>) {
+      T value{};
+      if (takes_all(valid_keys(target_of(value)), table.node))
+        found.emplace_back(T::type);
+    });
+    return found;
+  };
   for_each([&]<class T>(std::type_identity<T> of) {
     if (type == T::type)
-      read(of);
+      read(table, of);
   });
 }
 
@@ -142,9 +151,10 @@ struct TableReader {
                   std::vector<OneOf<S, T...>> model::Scene::* member) const {
     const auto types = [](const auto& visit) { OneOf<S, T...>::for_each_type(visit); };
     for_each_entry(root, name, scene.places, [&](const Table& entry) {
-      read_typed(entry, scene.places, types, [&]<class Own>(std::type_identity<Own>) {
-        (scene.*member).emplace_back(read_table<Own>(entry, scene.places));
-      });
+      read_typed(entry, scene.places, types,
+                 [&]<class Own>(const Table& own, std::type_identity<Own>) {
+                   (scene.*member).emplace_back(read_table<Own>(own, scene.places));
+                 });
     });
   }
   void operator()(const std::string& name, std::vector<model::Joint> model::Scene::* member) const {
@@ -156,10 +166,11 @@ struct TableReader {
   void operator()(const std::string& name, model::Forces model::Scene::* member) const {
     const auto types = [](const auto& visit) { model::for_each_force_type(visit); };
     for_each_entry(root, name, scene.places, [&](const Table& entry) {
-      read_typed(entry, scene.places, types, [&]<class Force>(std::type_identity<Force>) {
-        std::get<std::vector<Force>>(scene.*member)
-            .push_back(read_table<Force>(entry, scene.places));
-      });
+      read_typed(entry, scene.places, types,
+                 [&]<class Force>(const Table& own, std::type_identity<Force>) {
+                   std::get<std::vector<Force>>(scene.*member)
+                       .push_back(read_table<Force>(own, scene.places));
+                 });
     });
   }
 };

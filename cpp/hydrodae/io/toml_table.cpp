@@ -13,6 +13,20 @@ std::string path_of(const Table& table, std::string_view key) {
   return (table.path.empty() ? "" : table.path + ".") + std::string(key);
 }
 
+/// Text "; types with all the keys given: a, b", or "" if no type has them.
+std::string types_hint(const Table& table) {
+  const std::vector<std::string> types =
+      table.other_types ? table.other_types() : std::vector<std::string>{};
+  return types.empty() ? "" : "; types with all the keys given: " + joined(types);
+}
+
+std::vector<std::string> keys_of(const toml::table& node) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : node)
+    keys.emplace_back(key.str());
+  return keys;
+}
+
 } // namespace
 
 void check_keys(const Table& table, const std::vector<std::string>& valid) {
@@ -21,9 +35,15 @@ void check_keys(const Table& table, const std::vector<std::string>& valid) {
       continue;
     throw CaseError(place_of(key.source()), path_of(table, key.str()),
                     "unknown key " + in_quotes(key.str()) + " in " + table.label +
-                        (table.type.empty() ? "" : " of type " + table.type) +
-                        suggestion(key.str(), valid));
+                        (table.type.empty() ? "" : " of type " + table.type) + types_hint(table) +
+                        suggestion(key.str(), valid, keys_of(table.node)));
   }
+}
+
+bool takes_all(const std::vector<std::string>& valid, const toml::table& node) {
+  return std::all_of(node.begin(), node.end(), [&](const auto& entry) {
+    return std::find(valid.begin(), valid.end(), entry.first.str()) != valid.end();
+  });
 }
 
 const toml::node* find_key(const Table& table, Key& key, Places& places) {
@@ -55,7 +75,7 @@ Table nested_table(const Table& parent, const toml::node& node, const std::strin
   return {*node.as_table(), label, path, place, parent.kind + "." + name, parent.type};
 }
 
-void read_target(const Table& table, Places& places, const Target& target) {
+std::vector<std::string> valid_keys(const Target& target) {
   std::vector<std::string> valid;
   for (const AnyField& field : target.fields)
     valid.emplace_back(field.key);
@@ -63,7 +83,11 @@ void read_target(const Table& table, Places& places, const Target& target) {
     valid.insert(valid.begin() + 1, "type"); // behind the name
   for (const auto& [name, inner] : target.nested)
     valid.push_back(name);
-  check_keys(table, valid);
+  return valid;
+}
+
+void read_target(const Table& table, Places& places, const Target& target) {
+  check_keys(table, valid_keys(target));
 
   for (const AnyField& field : target.fields) {
     Key key{field.key, field.unit, field.range, field.choices};

@@ -1,6 +1,7 @@
 #pragma once
 /// A table of a case file as the struct that declares its keys (`T::fields()`).
 
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -21,13 +22,21 @@ struct Table {
   FilePlace place;
   std::string kind; ///< "body", "body.initial"; "" for the case itself
   std::string type; ///< type of the entry, "" without one
+  /// Names of the types of the list whose entries may have all keys of the entry; null without
+  /// types.
+  std::function<std::vector<std::string>()> other_types = {};
 };
 
 /// Places by key path, for messages of later checks.
 using Places = std::map<std::string, FilePlace>;
 
 /// Throws CaseError on the first key of the table that is not in `valid`; the message lists these.
+/// It proposes only what the entry can take: a key that is not given yet, or a type with all its
+/// keys.
 void check_keys(const Table& table, const std::vector<std::string>& valid);
+
+/// True: every key of `node` is in `valid`.
+bool takes_all(const std::vector<std::string>& valid, const toml::table& node);
 
 /// The value of `name` with the description of its key filled in, or null. Notes its place.
 const toml::node* find_key(const Table& table, Key& key, Places& places);
@@ -55,6 +64,9 @@ template <class T> Target target_of(T& value) {
   });
   return target;
 }
+
+/// Keys that a table may have, and the names of the tables inside.
+std::vector<std::string> valid_keys(const Target& target);
 
 /// Reads and checks all keys of `table`. Throws CaseError.
 void read_target(const Table& table, Places& places, const Target& target);

@@ -13,8 +13,14 @@ if TYPE_CHECKING:
     from hydrodae.case import Case
     from hydrodae.results import Results
 
-#: Endings of files that are no results.
-PICTURES = (".png", ".pdf", ".svg", ".jpg", ".jpeg")
+#: Endings of files that are no results: what stands in such a file, and how it comes from results.
+_PICTURE = ("a picture", "hydrodae plot {results} -o {file}")
+_PAGE = ("a page", "hydrodae report {results} -o {file}")
+OTHERS = {
+    **dict.fromkeys((".png", ".pdf", ".svg", ".jpg", ".jpeg"), _PICTURE),
+    **dict.fromkeys((".html", ".htm"), _PAGE),
+    ".mat": ("a MAT file", "MATLAB reads it: h5read('{results}', '/time')"),
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -91,11 +97,11 @@ def run(arguments: argparse.Namespace) -> int:
             f"{arguments.case}: a case from a pipe has no name for results: give -o FILE"
         )
     output = Path(arguments.output or Path(arguments.case).with_suffix(".h5"))
-    if output.suffix.lower() in PICTURES:
-        file = output.with_suffix(".h5")
+    if other := OTHERS.get(output.suffix.lower()):
+        file, (what, then) = output.with_suffix(".h5"), other
         raise CaseError(
-            f"-o {output}: the results of a run are HDF5, not a picture; write -o {file}, "
-            f"then hydrodae plot {file} -o {output}"
+            f"-o {output}: the results of a run are HDF5, not {what}; write -o {file}, then "
+            f"{then.format(results=file, file=output)}"
         )
     options = ("verify", "checkpoint", "resume", "strict")
     how = {name: getattr(arguments, name) for name in options}

@@ -17,6 +17,7 @@ from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError
 from hydrodae.fmu.description import Description, model_description, start_text, type_of
 from hydrodae.fmu.variables import PARAMETER, Variable, choose, number_at
+from hydrodae.support import licences
 
 _PLATFORMS = {2: "linux64", 3: "x86_64-linux"}
 
@@ -81,6 +82,8 @@ def export(
         folder = f"binaries/{_PLATFORMS[fmi]}"
         for name, library in _libraries(identifier).items():
             archive.writestr(f"{folder}/{name}", library)
+        for name, licence in licences.texts().items():
+            archive.writestr(f"documentation/licenses/{name}", licence)
         archive.writestr("resources/case.toml", text)
         archive.writestr("resources/variables.txt", f"hydrodae-fmu\t1\ntoken\t{token}\n{content}")
         for name, file in files.items():

@@ -8,6 +8,7 @@ from xml.etree import ElementTree as Xml
 
 from hydrodae.fmu.units import base_units
 from hydrodae.fmu.variables import OUTPUT, Value, Variable
+from hydrodae.support.licences import expression
 from hydrodae.support.version import version
 
 _CAN = {
@@ -127,6 +128,8 @@ def _names(told: Description) -> dict[str, str]:
     return {
         "modelName": told.title,
         "generationTool": f"hydrodae {version()}",
+        "license": expression(),
+        "copyright": "hydrodae contributors",
         "variableNamingConvention": "flat",
     }
 

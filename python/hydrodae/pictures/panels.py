@@ -12,7 +12,7 @@ from hydrodae.errors import CaseError
 from hydrodae.pictures.target import target_of
 from hydrodae.results.series import FEWEST, spectral_density
 from hydrodae.support.arrays import Array
-from hydrodae.support.units import displayed
+from hydrodae.support.units import displayed, prefixed
 
 if TYPE_CHECKING:
     from hydrodae.results import Results
@@ -112,15 +112,13 @@ def scaled(panel: Panel) -> Panel:
     if panel.unit not in _PREFIXED:
         return panel
     largest = max((float(np.abs(line.values).max()) for line in panel.lines), default=0.0)
-    prefixes = (("G", 1e9), ("M", 1e6), ("k", 1e3))
-    prefix, factor = next(((p, f) for p, f in prefixes if largest >= f), ("", 1.0))
-    unit = f"{prefix}{panel.unit}"
+    factor, unit = prefixed(largest, panel.unit)
     lines = [
         replace(
             line,
             unit=unit,
-            values=line.values / factor,
-            level=None if line.level is None else line.level / factor,
+            values=line.values * factor,
+            level=None if line.level is None else line.level * factor,
         )
         for line in panel.lines
     ]

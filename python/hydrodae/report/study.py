@@ -20,6 +20,7 @@ from hydrodae.report.scene import parts, rungs
 from hydrodae.study.sweep import text
 from hydrodae.study.sweep.measures import ENDS
 from hydrodae.study.sweep.table import half_percent, with_unit
+from hydrodae.support.units import prefixed
 from hydrodae.support.version import version
 
 #: What is drawn first, if it is there.
@@ -91,7 +92,8 @@ def matrix(values: xr.DataArray, name: str, half: xr.DataArray | None = None) ->
     """
     down, across = (str(d) for d in values.dims)
     numbers = values.to_numpy()
-    prefix, factor = _prefix(numbers)
+    largest = float(np.nanmax(np.abs(numbers), initial=0.0))
+    factor, unit = prefixed(largest, values.attrs.get("units", "-"))
     figure = Figure(
         figsize=(
             min(10.0, 2.5 + 0.75 * numbers.shape[1]),
@@ -100,13 +102,13 @@ def matrix(values: xr.DataArray, name: str, half: xr.DataArray | None = None) ->
         layout="constrained",
     )
     axes = figure.subplots()
-    image = axes.imshow(numbers / factor, cmap="viridis", aspect="auto", origin="lower")
+    image = axes.imshow(numbers * factor, cmap="viridis", aspect="auto", origin="lower")
     axes.grid(visible=False)
     if half is not None and np.isfinite(half.to_numpy()).any():
         axes.set_title("\u00b1 half of the 95 % interval", loc="right", fontsize=8)
-    middle = 0.4 * np.nanmin(numbers / factor) + 0.6 * np.nanmax(numbers / factor)
+    middle = 0.4 * np.nanmin(numbers * factor) + 0.6 * np.nanmax(numbers * factor)
     percent = np.full(numbers.shape, np.nan) if half is None else half.to_numpy()
-    for (i, j), value in np.ndenumerate(numbers / factor):
+    for (i, j), value in np.ndenumerate(numbers * factor):
         near = f"\n\u00b1{percent[i, j]:.2g} %" if np.isfinite(percent[i, j]) else ""
         color = "black" if value > middle else "white"
         axes.text(j, i, f"{value:.3g}{near}", ha="center", va="center", fontsize=8, color=color)
@@ -114,15 +116,8 @@ def matrix(values: xr.DataArray, name: str, half: xr.DataArray | None = None) ->
     axes.set_yticks(range(numbers.shape[0]), [_short(v) for v in values[down].to_numpy()])
     axes.set_xlabel(with_unit(values, across).replace("_", " "))
     axes.set_ylabel(with_unit(values, down).replace("_", " "))
-    unit = values.attrs.get("units", "-")
-    figure.colorbar(image, label=f"{name.replace('_', ' ')} [{prefix}{unit}]")
+    figure.colorbar(image, label=f"{name.replace('_', ' ')} [{unit}]")
     return figure
-
-
-def _prefix(numbers: np.ndarray) -> tuple[str, float]:
-    largest = float(np.nanmax(np.abs(numbers), initial=0.0))
-    steps = (("G", 1e9), ("M", 1e6), ("k", 1e3))
-    return next(((p, f) for p, f in steps if largest >= f), ("", 1.0))
 
 
 def _short(value: object) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from hydrodae.results.files import ResultsError
 from hydrodae.results.recording import Recording
-from hydrodae.support.units import displayed
+from hydrodae.support.units import displayed, prefixed
 
 
 def summary(results: Recording) -> str:
@@ -120,9 +120,9 @@ def _power(results: Recording) -> list[str]:
     each = {key.removeprefix(head): power for key, power in known.items() if key.startswith(head)}
     if not each:
         return []
-    parts = [f"{name} {power:,.4g} W{_interval(known, f'.{name}')}" for name, power in each.items()]
+    parts = [_with_interval(name, power, known, f".{name}") for name, power in each.items()]
     if len(each) > 1 and "mean_power_absorbed" in known:
-        parts.append(f"in all {known['mean_power_absorbed']:,.4g} W{_interval(known)}")
+        parts.append(_with_interval("in all", known["mean_power_absorbed"], known))
     since = known.get("mean_power_from", 0.0)
     line = f"  mean absorbed power{f' after {since:g} s' * (since > 0)}: {', '.join(parts)}"
     if "mean_power_low" in known:
@@ -132,11 +132,14 @@ def _power(results: Recording) -> list[str]:
     return [line]
 
 
-def _interval(known: dict[str, float], of: str = "") -> str:
+def _with_interval(name: str, power: float, known: dict[str, float], of: str = "") -> str:
+    """A name, its mean power [W] and the interval of the sea state, all three in one unit."""
+    factor, unit = prefixed(power, "W")
+    told = f"{name} {factor * power:.4g} {unit}"
     if f"mean_power_low{of}" not in known:
-        return ""
-    low, high = (known[f"mean_power_{end}{of}"] for end in ("low", "high"))
-    return f" ({low:,.3g} to {high:,.3g})"
+        return told
+    low, high = (factor * known[f"mean_power_{end}{of}"] for end in ("low", "high"))
+    return f"{told} ({low:.3g} to {high:.3g})"
 
 
 def _expected(results: Recording, name: str) -> list[str]:

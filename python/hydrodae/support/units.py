@@ -16,3 +16,27 @@ def displayed(unit: str) -> tuple[float, str]:
     if unit == "rad" or unit.startswith("rad/"):
         return math.degrees(1.0), "deg" + unit.removeprefix("rad")
     return 1.0, unit
+
+
+def prefixed(size: float, unit: str) -> tuple[float, str]:
+    """Factor and unit in which a person reads numbers up to `size`: none, k, M or G before it.
+
+    Examples
+    --------
+    >>> prefixed(950.0, "W"), prefixed(-4.5e6, "W")
+    ((1.0, 'W'), (1e-06, 'MW'))
+    """
+    steps = (("G", 1e9), ("M", 1e6), ("k", 1e3))
+    return next(((1.0 / f, p + unit) for p, f in steps if abs(size) >= f), (1.0, unit))
+
+
+def power_text(power: float, digits: int = 4) -> str:
+    """A power [W] with its unit: W, kW, MW or GW.
+
+    Examples
+    --------
+    >>> power_text(17020.0), power_text(0.0)
+    ('17.02 kW', '0 W')
+    """
+    factor, unit = prefixed(power, "W")
+    return f"{factor * power:.{digits}g} {unit}"

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from hydrodae.study.extremes.rayleigh import interval
-from hydrodae.support.units import displayed
+from hydrodae.support.units import displayed, prefixed
 
 #: Units that have thousands.
 LARGE = ("N", "N m", "W", "J", "Pa")
@@ -22,9 +22,7 @@ def in_unit(size: float, unit: str) -> tuple[float, str]:
     ((1e-06, 'MN m'), (1.0, 'm'))
     """
     if unit in LARGE:
-        for prefix, factor in (("M", 1e6), ("k", 1e3)):
-            if abs(size) >= factor:
-                return 1.0 / factor, prefix + unit
+        return prefixed(size, unit)
     return displayed(unit)
 
 

@@ -50,7 +50,10 @@ def _check_steps(case: Case) -> None:
     if method not in FIXED or not step > 0.0:
         raise CaseError(
             "gradients of runs need fixed steps: set solver.method to one of "
-            f"{', '.join(FIXED)} and solver.step > 0 (here {method!r} and {step:g} s)"
+            f"{', '.join(FIXED)} and solver.step > 0 (here {method!r} and {step:g} s); or take a "
+            'linear model of the motion: rungs = ["spectral"] or ["frequency"] in a study, '
+            "rung='spectral' or 'frequency' in Python",
+            key="solver.method",
         )
 
 

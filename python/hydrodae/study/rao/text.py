@@ -9,7 +9,7 @@ import numpy as np
 from hydrodae.linear import Mode, Response
 from hydrodae.study.rao.regular_waves import Harmonic
 from hydrodae.support.arrays import Array
-from hydrodae.support.units import displayed
+from hydrodae.support.units import displayed, power_text
 
 #: A coordinate that moves less than this share of the largest of its unit is not listed.
 NOTHING = 1e-9
@@ -167,6 +167,7 @@ def sea_table(
         factor, unit = displayed(units.get(name, "m"))
         lines.append(f"  {name:40} {0.0 if held else factor * value:.5g} {unit}")
     lines += [
-        f"  mean power of {name_of_power(name):26} {value:.5g} W" for name, value in power.items()
+        f"  mean power of {name_of_power(name):26} {power_text(value, 5)}"
+        for name, value in power.items()
     ]
     return "\n".join(lines)

@@ -8,7 +8,7 @@ import numpy as np
 
 from hydrodae.study.rao.text import NOTHING, name_of_power, short_name
 from hydrodae.study.slow.text import table as slow_table
-from hydrodae.support.units import displayed
+from hydrodae.support.units import displayed, power_text
 
 
 def table(found: Any) -> str:
@@ -36,7 +36,7 @@ def table(found: Any) -> str:
         )
     lines += _air(found)
     lines += [
-        f"mean power of {name_of_power(name):26} {value:.5g} W"
+        f"mean power of {name_of_power(name):26} {power_text(value, 5)}"
         for name, value in found.power.items()
     ]
     lines += [f"damping of {name}: {_damping(value)}" for name, value in found.damping.items()]

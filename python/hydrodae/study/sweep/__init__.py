@@ -15,7 +15,8 @@ from hydrodae.study.sweep.plan import RUNG, Study, point_key, read_study
 from hydrodae.study.sweep.pool import run_points
 from hydrodae.study.sweep.rounds import Rounds
 from hydrodae.study.sweep.rungs import open_case
-from hydrodae.study.sweep.table import claim, dataset, text, texts_of, write
+from hydrodae.study.sweep.table import claim, dataset, texts_of, write
+from hydrodae.study.sweep.text import text
 from hydrodae.support.version import version
 
 if TYPE_CHECKING:

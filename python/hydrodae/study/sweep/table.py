@@ -1,4 +1,4 @@
-"""The results of a study as one dataset, and as text."""
+"""The results of a study as one dataset."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from hydrodae.case import Case
 from hydrodae.case.tables import unit_of
 from hydrodae.errors import CaseError
 from hydrodae.study.sweep.journal import Row
-from hydrodae.study.sweep.means import add_means, control_columns, lines_of, uncontrolled
+from hydrodae.study.sweep.means import add_means, control_columns, uncontrolled
 from hydrodae.study.sweep.measures import ENDS
-from hydrodae.study.sweep.plan import RUNG, Study, point_key
+from hydrodae.study.sweep.plan import Study, point_key
 from hydrodae.support import outputs
 
 if TYPE_CHECKING:
@@ -97,8 +97,8 @@ def _attributes(key: str) -> dict[str, str]:
     return {"key": key} | ({"units": unit} if unit not in ("", "-") else {})
 
 
-def with_unit(values: xr.DataArray, dimension: str) -> str:
-    """Name of a dimension, its unit in brackets where it has one."""
+def with_unit(values: xr.DataArray | xr.Dataset, dimension: str) -> str:
+    """Name of a dimension or column, its unit in brackets where it has one."""
     unit = values[dimension].attrs.get("units", "")
     return f"{dimension} [{unit}]" if unit else dimension
 
@@ -159,37 +159,6 @@ def write(path: str | os.PathLike[str], results: xr.Dataset) -> Path:
     return Path(path)
 
 
-def text(results: xr.Dataset) -> str:
-    """Counts, and the mean power of each sea state or point, for people."""
-    status, count = np.unique(results["status"].to_numpy().astype(str), return_counts=True)
-    lines = [", ".join(f"{n} {word}" for word, n in zip(status, count, strict=True))]
-    for reason in sorted(set(results["reason"].to_numpy().ravel()) - {""})[:5]:
-        lines.append(f"  {str(reason).splitlines()[0]}")
-    for line in results.attrs.get("run_alone", "").splitlines()[:5]:
-        number, _, reason = line.partition(" ")
-        lines.append(f"{number} of them not side by side with others: {reason}")
-    lines += lines_of(results, results.attrs)
-    for name in ("mean_power_absorbed_mean", "mean_power_absorbed"):
-        if name in results:
-            for rung in results[RUNG].to_numpy() if RUNG in results.dims else [None]:
-                mine = results if rung is None else results.sel({RUNG: rung})
-                how = f"{'' if rung is None else f', {rung}'}, W{_worth(mine, name)}"
-                lines.append(f"mean absorbed power{how}:")
-                lines += _rows(mine[name], half_percent(mine, name))
-            break
-    if "annual_energy" in results:
-        energy, hours = results["annual_energy"], float(results["hours"])
-        rungs = energy[RUNG].to_numpy() if RUNG in energy.dims else [""]
-        for rung, joules in zip(rungs, np.atleast_1d(energy.to_numpy()), strict=True):
-            how = f", {rung}" if rung else ""
-            lines.append(f"annual energy{how}: {joules / 3.6e9:,.4g} MWh in {hours:g} h")
-            if ends := interval_of(results, "annual_energy"):
-                low, high = (float(e if RUNG not in e.dims else e.sel({RUNG: rung})) for e in ends)
-                if np.isfinite([low, high]).all():
-                    lines[-1] += f" (95 %: {low / 3.6e9:,.3g} to {high / 3.6e9:,.3g})"
-    return "\n".join(lines)
-
-
 def interval_of(results: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArray] | None:
     """Ends of the 95 % interval of a result: of NAME_mean over its seeds, else of each run alone.
 
@@ -206,39 +175,3 @@ def half_percent(results: xr.Dataset, name: str) -> xr.DataArray | None:
     """Half the width of `interval_of` in percent of the value [%]; nan where there is none."""
     ends = interval_of(results, name)
     return None if ends is None else 50.0 * (ends[1] - ends[0]) / abs(results[name])
-
-
-def _worth(results: xr.Dataset, name: str) -> str:
-    """Widest interval of the means, and the mean time of a run, where they are known."""
-    told, half = [], half_percent(results, name)
-    if half is not None and half.count() > 0:
-        whose = "interval" if name.endswith("_mean") else "interval of one run"
-        told.append(f"95 % {whose} at most {float(half.max()):.2g} % to each side")
-    if half is not None and not name.endswith("_mean"):
-        short = int(results[name].count() - half.count())
-        told += [f"{short} runs too short for an interval"] if short else []
-    if "wall_time" in results:
-        told.append(f"{float(results['wall_time'].mean()):.2g} s a run")
-    return f" ({'; '.join(told)})" if told else ""
-
-
-def _rows(power: xr.DataArray, half: xr.DataArray | None) -> list[str]:
-    """A line a row of the matrix; behind each number half of its interval [%]."""
-    if power.ndim != 2:
-        flat = power.to_numpy().ravel()
-        return [f"  {np.nanmin(flat):.4g} to {np.nanmax(flat):.4g}"] if len(flat) else []
-    down, across = (power[d].to_numpy() for d in power.dims)
-    percent = np.full(power.shape, np.nan) if half is None else half.to_numpy()
-    width = 11 if half is None else 18
-    first, second = (with_unit(power, str(dimension)) for dimension in power.dims)
-    head = f"{first} | {second}".rjust(28)
-    lines = ["  " + head + "".join(f"{x!s:>{width}.10}" for x in across)]
-    for value, row, near in zip(down, power.to_numpy(), percent, strict=True):
-        cells = [
-            f"{x:.4g}" + f" +-{p:.2g} %" * bool(np.isfinite(p))
-            for x, p in zip(row, near, strict=True)
-        ]
-        lines.append(
-            "  " + str(value).rjust(len(head)) + "".join(f"{cell:>{width}}" for cell in cells)
-        )
-    return lines
