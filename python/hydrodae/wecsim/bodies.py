@@ -30,7 +30,6 @@ IDLE = {
 }
 #: Fields of effects that the kernel has another way, or not at all.
 LACKING = {
-    "meanDrift": "mean drift forces",
     "QTFs": "second-order forces (QTF)",
     "flex": "generalised body modes",
     "variableHydro.option": "variable hydrodynamics (tables that change in the run)",
