@@ -38,7 +38,7 @@ READERS: dict[str, ModuleType] = {
     "hydrostar": hydrostar_drift,
 }
 EXPECTED = (
-    ".7 .8 .9 .out or .10 .11 .12 with d or s of WAMIT, .h5 of BEMIO, OUT_QTFM_N*.dat of Nemoh, "
+    ".7 to .12 or .out of WAMIT, .h5 of BEMIO, OUT_QTFM_N*.dat of Nemoh, "
     ".rao of HydroStar with #QTFTYPE, .QTF of AQWA, .yml of OrcaFlex"
 )
 #: The better ones first: pressures need the finest mesh, and the quadratic part is not all.
