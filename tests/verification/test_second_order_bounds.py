@@ -50,14 +50,16 @@ def wide() -> HydroDatabase:
     """The made-up body in waves from two headings; the tables of second order have one."""
     owner = floating()
     force = np.zeros((owner.omega.size, 2, 6), complex)
-    return replace(owner, heading=np.array([0.0, 0.5]), froude_krylov=force, diffraction=force)
+    heading = np.array([0.0, 0.5])
+    found: HydroDatabase = replace(owner, heading=heading, froude_krylov=force, diffraction=force)
+    return found
 
 
 def with_a_mode() -> HydroDatabase:
     owner = floating()
     square, force = np.eye(7), np.zeros((owner.omega.size, 1, 7), complex)
     body = replace(owner.bodies["float"], mode_stiffness=square)
-    return replace(
+    found: HydroDatabase = replace(
         owner,
         coordinates=(*owner.coordinates, "float.bend"),
         added_mass=np.tile(square, (owner.omega.size, 1, 1)),
@@ -68,6 +70,7 @@ def with_a_mode() -> HydroDatabase:
         diffraction=force,
         bodies={"float": body},
     )
+    return found
 
 
 def diagonal(factor: float) -> Change:
