@@ -137,14 +137,16 @@ READERS = {"HullMesh.pnl": read_mesh, "model.yml": read_yaml, "stiffness.txt": r
 
 def source(name: str, folder: Path, request: pytest.FixtureRequest) -> Path:
     """Write a sound source, or copy one of the reference data; returns what is to be read."""
-    own: dict[str, Callable[[], object]] = {
-        "nemoh": lambda: NemohFolder().write(folder),
-        "wamit": lambda: write_run(folder),
-        "mesh": lambda: (folder.mkdir(), write_pnl(folder / "HullMesh.pnl")),
-        "text": folder.mkdir,
+    own: dict[str, Callable[[Path], object]] = {
+        "nemoh": lambda at: NemohFolder().write(at),
+        "wamit": write_run,
+        "mesh": lambda at: write_pnl(at / "HullMesh.pnl"),
+        "text": Path.touch,
     }
     if name in own:
-        own[name]()
+        if name != "nemoh":
+            folder.mkdir()
+        own[name](folder)
         return folder / "run.1" if name == "wamit" else folder
     leave = shutil.ignore_patterns("*.png", "*.pdf", "*.LIS")
     reference: Path = request.getfixturevalue("reference")
