@@ -48,6 +48,8 @@ def make(example: dict[str, Any], results: Results, case: Path, folder: Path) ->
     kind = example.get("figure", "")
     if kind == "stored":
         return stored(results, case, folder / example["file"])
+    if kind == "drift":
+        return drift(results, case, folder.parent / "WAMIT" / "outputFiles" / "sphere.7")
     if kind == "stages":
         return stages(results, case, folder, example["stage"])
     if kind == "elevation":
@@ -111,6 +113,23 @@ def stored(results: Results, case: Path, file: Path) -> Figure:
         half, mine = time >= 0.5 * time[-1], time_of(results) >= 0.5 * time[-1]
         values = float(np.std(ours[mine])), float(np.std(theirs[half]))
     return Figure(name, *values, f"stored, {file.name}")
+
+
+def drift(results: Results, case: Path, file: Path) -> Figure:
+    """Mean drift in surge at the end of the run, and that of WAMIT over a control surface.
+
+    F = rho g T a^2, T interpolated between the periods of the numeric file.
+    """
+    tables, database = tables_of(case), database_of(case)
+    wave, body = tables["wave"][0], tables["body"][0]["name"]
+    rows = np.loadtxt(file, skiprows=1)
+    surge = rows[(rows[:, 3] == 1) & (rows[:, 0] > 0.0)]
+    order = np.argsort(-surge[:, 0])
+    omega = 2.0 * math.pi / surge[order, 0]
+    value = np.interp(2.0 * math.pi / wave["period"], omega, surge[order, 6])
+    theirs = database.rho * database.gravity * value * (wave["height"] / 2.0) ** 2
+    ours = float(results[f"forces/second_order/{body}/force"][-1, 0])
+    return Figure("mean drift in surge, N", ours, float(theirs), "WAMIT, sphere.7")
 
 
 def heave(results: Results, case: Path) -> Figure:

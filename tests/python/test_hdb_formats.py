@@ -254,24 +254,6 @@ def test_a_listing_of_wamit_repeats_no_frequency(reference):
     assert abs(data.excitation[0, 0, 2]) == pytest.approx(1025.0 * 9.81 * 3.836957e-1)
 
 
-AH1 = """* head
-  1  1   1     0.00000
-              0.5000000
-GENERAL
-  1   10.0  1000.0  9.81 0 0
-COG
-  1   0.0 0.0 {z}
-"""
-
-
-@pytest.mark.parametrize(("z", "reason", "line"), [("oops", "format", 7), ("-1.0", "missing", 0)])
-def test_errors_of_aqwa_name_file_and_line(tmp_path, z, reason, line):
-    path = tmp_path / "tiny.AH1"
-    path.write_text(AH1.format(z=z))
-    with refused(reason, file="tiny.AH1", line=line):
-        hdb.read(path)
-
-
 def test_the_yaml_of_orcaflex(tmp_path):
     path = tmp_path / "model.yml"
     path.write_text(
@@ -284,9 +266,6 @@ def test_the_yaml_of_orcaflex(tmp_path):
     assert model["General"] == {"Depth": float("inf"), "Empty": None}
     assert model["Types"][0] == {"Name": "one", "A, B": [[1.0, 2500.0, -3.0], []], "Last": -1e-6}
     assert model["Types"][1] == {"Name": "two"}
-    path.write_text("no colon here\n")
-    with refused("format", file="model.yml"):
-        read_yaml(path)
 
 
 def test_exchanged_limits_of_added_mass_are_put_right(reference, tmp_path):

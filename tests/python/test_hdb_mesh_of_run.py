@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.errors import refused
 
 from hydrodae.hdb.hull.mesh_statics import mesh_statics
 from hydrodae.hdb.hull.meshes import read_mesh
@@ -71,24 +70,6 @@ def test_triangles_of_hams(tmp_path):
     write_pnl(tmp_path / "HullMesh.pnl", panels=triangles)
     statics = mesh_statics(read_mesh(tmp_path / "HullMesh.pnl"), np.zeros(3))
     assert statics.displaced_volume == pytest.approx(LENGTH * WIDTH * DRAUGHT)
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "reason", "subject", "line"),
-    [
-        ("   5   8   0   0", "   5   9   0   0", "shape", "", 0),
-        ("  1  4  1", "  1  4  x", "format", "", 18),
-        ("  1  4  1", "  1  4  77", "missing", "point 77", 18),
-    ],
-)
-def test_meshes_of_hams_that_are_garbled(tmp_path, old, new, reason, subject, line):
-    path = tmp_path / "HullMesh.pnl"
-    write_pnl(path)
-    text = path.read_text()
-    assert old in text
-    path.write_text(text.replace(old, new, 1))
-    with refused(reason, subject, line=line):
-        read_mesh(path)
 
 
 def run_of_hams(root, *, area=LENGTH * WIDTH, force=1.0):

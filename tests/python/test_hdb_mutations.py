@@ -13,7 +13,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.errors import refused
 from tests.python.nemoh_writer import NemohFolder
 
 from hydrodae import hdb
@@ -130,54 +129,20 @@ def test_a_file_that_is_cut_short_never_reads_as_something_else(copy, name):
             assert same(found, before)
 
 
-def test_aqwa_entries_in_another_order_are_refused(copy):
-    path = copy("cylinder_aqwa") / "cylinder.AH1"
-    lines = path.read_text().splitlines()
-    start = lines.index("FORCERAO") + 1
-    lines[start : start + 4] = lines[start + 2 : start + 4] + lines[start : start + 2]
-    path.write_text("\n".join(lines))
-    with refused("order", "FORCERAO", file="cylinder.AH1"):
-        read_source(path)
-
-
-def test_forces_whose_columns_do_not_belong_together_are_refused(copy):
+def test_phases_of_the_other_sign_than_the_parts_are_told(copy):
     folder = copy("cylinder_hams")
     path = folder / "Wamit_format" / "Buoy.3"
     rows = [line.split() for line in path.read_text().splitlines()]
     for row in rows:
-        row[3], row[5] = row[5], row[3]
-    path.write_text("\n".join(" ".join(row) for row in rows))
-    with refused("conflict", "modulus", file="Buoy.3", line=1):
-        read_source(folder)
-    for row in rows:
-        row[3], row[5] = row[5], row[3]
         row[4] = str(-float(row[4]))
     path.write_text("\n".join(" ".join(row) for row in rows))
     told = [f.message for f in read_source(folder).findings if f.check == "excitation"]
     assert any(re.search(r"Buoy\.3:1: phase .* which are used", text) for text in told)
 
 
-def test_modes_that_the_run_does_not_have_are_refused(copy):
-    folder = copy("cylinder_hams") / "Wamit_format"
-    for suffix in ("3", "hst"):
-        path = folder / f"Buoy.{suffix}"
-        text = path.read_text()
-        lines = text.splitlines()
-        words = lines[2].split()
-        words[0 if suffix == "hst" else 2] = "40"
-        path.write_text("\n".join([*lines[:2], " ".join(words), *lines[3:]]))
-        with refused("label", "modes", file=path.name, line=3):
-            read_source(folder)
-        path.write_text(text)
-
-
-def test_water_without_weight_is_refused_and_strange_water_told(copy):
+def test_strange_water_is_told(copy):
     path = copy("twospheres_capytaine_legacy") / "Nemoh.cal"
     lines = path.read_text().splitlines()
-    for value, reason in (("0.0", "value"), ("nan", "format")):
-        path.write_text("\n".join([lines[0], value, *lines[2:]]))
-        with refused(reason, file="Nemoh.cal", line=2):
-            read_source(path.parent)
     path.write_text("\n".join([lines[0], "1.0e6", *lines[2:]]))
     found = read_source(path.parent).findings
     assert any(f.check == "water" and "density 1e+06 kg/m3" in f.message for f in found)
@@ -233,16 +198,6 @@ def test_hydrostatics_of_another_hull_are_told(reference):
     assert told(waterplane_area=area) == [("error", "its waterplane area is neg")]
 
 
-def test_a_garbled_depth_is_no_depth(copy):
-    path = copy("cylinder_hams") / "ControlFile.in"
-    text = path.read_text()
-    (stated,) = re.findall(r"Waterdepth\s+(\S+)", text)
-    for wrong in ("-1.#IND", "1x0", "1.2.3", "NaN"):
-        path.write_text(text.replace(stated, wrong, 1))
-        with refused("missing", "Waterdepth", file="ControlFile.in"):
-            read_source(path.parent)
-
-
 def test_overflows_are_dropped_and_told(copy):
     folder = copy("cylinder_hams")
     path = folder / "Wamit_format" / "Buoy.1"
@@ -279,14 +234,6 @@ def test_a_column_that_is_no_phase_is_told(copy):
     assert [f.severity for f in told] == ["warning"]
     assert f"{heave} at heading" in told[0].message
     assert "jumps" in told[0].message
-
-
-def test_a_listing_that_is_cut_short_is_refused(copy):
-    path = copy("cylinder_wamit_out") / "cyl.out"
-    text = path.read_text()
-    path.write_text(text[: text.index("Wave period", int(0.7 * len(text)))])
-    with refused("cut_short", file="cyl.out"):
-        read_source(path)
 
 
 def test_halves_of_added_mass_far_apart_are_an_error(copy):

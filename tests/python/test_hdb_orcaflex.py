@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.errors import refused
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.readers.orcayaml import read_yaml
@@ -85,9 +84,6 @@ def test_yaml_that_other_programs_write(tmp_path):
     }
     assert (second["Name"], second["On"], second["Date"]) == ("12:30", "Yes", "2020-01-02")
     assert (second["Far"], second["Power"], second["Octal"]) == (-np.inf, 1e6, 10.0)
-    path.write_text("General:\n  Depth: [1, 2\nNext: 3\n")
-    with refused("format", file="model.yml", line=3):
-        read_yaml(path)
 
 
 @pytest.mark.parametrize(

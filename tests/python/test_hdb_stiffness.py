@@ -12,7 +12,6 @@ from tests.python.nemoh_writer import NemohFolder
 
 from hydrodae import hdb
 from hydrodae.commands import cli
-from hydrodae.hdb.readers.stiffness_file import read_stiffness
 
 CENTER = np.array([0.0, 0.0, -2.5])
 
@@ -88,12 +87,6 @@ def test_what_is_missing_is_said(
     ):
         assert cli.main([*command, *more]) == 2
         assert message in capsys.readouterr().err
-    file.write_text("1 2 3 4 5 6\n1 2 x\n")
-    with refused("format", file="stiffness.txt", line=2):
-        read_stiffness(file)
-    file.write_text(rows(np.eye(6)[:4]))
-    with refused("shape", file="stiffness.txt"):
-        read_stiffness(file)
 
 
 BOXES = ((4.0, 2.0, 1.0), (6.0, 3.0, 2.0))  #: Length, width and draught of two boxes [m].

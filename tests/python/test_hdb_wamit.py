@@ -100,33 +100,7 @@ def test_any_file_of_the_run_and_its_folder_are_recognised(tmp_path):
         assert kind(source) == "wamit"
 
 
-def edit(path, line, text):
-    lines = path.read_text().splitlines()
-    lines[line - 1] = text
-    path.write_text("\n".join(lines) + "\n")
-
-
-@pytest.mark.parametrize(
-    ("file", "line", "text", "reason"),
-    [
-        ("run.1", 5, " 1.0 1 oops 2.0", "format"),
-        ("run.1", 5, " 1.0 1", "shape"),
-        ("run.1", 300, " 6.2831853072 1 1 2.0", "shape"),
-        ("run.3", 9, " 1.0 0.0 1 2.0", "shape"),
-        ("run.pot", 8, " NBODY", "format"),
-        ("run.pot", 10, " 0 0 -1 30 XBODY", "unsupported"),
-        ("A.GDF", 2, " one two", "format"),
-    ],
-)
-def test_errors_name_file_and_line(tmp_path, file, line, text, reason):
-    path = write_run(tmp_path)
-    edit(tmp_path / file, line, text)
-    with refused(reason, file=file, line=line):
-        hdb.read(path, rho=1000.0)
-
-
 def test_rows_of_the_stiffness_beyond_the_modes_of_the_run(reference, tmp_path):
-    """A whole table may hold more; one whose index is garbled has a gap."""
     folder = tmp_path / "run"
     shutil.copytree(reference / "hdb" / "sphere_wamit", folder)
     path = folder / "sphere.hst"
@@ -137,25 +111,6 @@ def test_rows_of_the_stiffness_beyond_the_modes_of_the_run(reference, tmp_path):
     np.testing.assert_array_equal(
         after.hydrostatic_stiffness("sphere"), before.hydrostatic_stiffness("sphere")
     )
-    path.write_text(rows.replace("     3     3 ", "     7     3 "))
-    with refused("label", "modes", file="sphere.hst"):
-        hdb.read(folder)
-
-
-@pytest.mark.parametrize("mode", ["1e308", "1.5", "0"])
-def test_numbers_that_are_no_mode(tmp_path, mode):
-    path = write_run(tmp_path)
-    words = path.read_text().splitlines()[3].split()
-    edit(path, 4, " ".join([words[0], mode, *words[2:]]))
-    with refused("label", "modes", file="run.1"):
-        hdb.read(path, rho=1000.0)
-
-
-def test_an_unknown_first_column_is_refused(tmp_path):
-    path = write_run(tmp_path)
-    edit(tmp_path / "run.cfg", 1, " IPEROUT=7")
-    with refused("format", "IPEROUT"):
-        hdb.read(path, rho=1000.0)
 
 
 def test_the_depth_is_not_guessed(tmp_path):

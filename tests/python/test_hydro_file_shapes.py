@@ -15,6 +15,7 @@ import hydrodae
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import layout
+from hydrodae.support import damaged
 
 GROUPS = {
     "": layout.TABLES,
@@ -57,23 +58,23 @@ CASES = [
 ]
 
 
-def with_mode(sphere: hdb.HydroDatabase) -> hdb.HydroDatabase:
-    """Return the sphere in heave, and its surge under the name of a mode."""
+@pytest.fixture(scope="module")
+def whole(repository: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The sphere with its kernel, its fit, a mesh, and its surge under the name of a mode."""
+    path = tmp_path_factory.mktemp("hydro") / "hydro.h5"
+    sphere = hdb.read(repository / "cases" / "sphere" / "hydro.h5")
     chosen = sphere.select(["sphere.heave", "sphere.surge"])
     body = replace(chosen.bodies["sphere"], mode_stiffness=np.eye(7))
     labels = ("sphere.heave", "sphere.bend")
-    return replace(chosen, coordinates=labels, bodies={"sphere": body})
-
-
-@pytest.fixture(scope="module")
-def whole(repository: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The sphere with a kernel, a fit, a mesh and a mode."""
-    path = tmp_path_factory.mktemp("hydro") / "hydro.h5"
-    database = with_mode(hdb.read(repository / "cases" / "sphere" / "hydro.h5"))
-    database = database.with_kernel(["sphere.heave"], band=(0.3, 3.0))
-    database = hdb.fit(database, "sphere.heave", name="heave", band=(0.3, 3.0), target=0.01)
-    database.with_meshes({"sphere": np.zeros((3, 4, 3))}).write(path)
+    made = replace(chosen, coordinates=labels, bodies={"sphere": body})
+    made.with_meshes({"sphere": np.zeros((3, 4, 3))}).write(path)
     return path
+
+
+@pytest.fixture(autouse=True)
+def in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The files are sound for HDF5: no child process, whose start takes longer than the test."""
+    monkeypatch.setattr(damaged, "in_child", lambda work: work())
 
 
 def changed(path: Path, folder: Path, name: str, change: str) -> Path:

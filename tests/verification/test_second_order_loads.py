@@ -65,6 +65,7 @@ def case(
     end: float = 100.0,
     step: float = 2.5,
     hydro: str = "",
+    hull: str = 'hydro = "float"',
 ) -> hydrodae.Case:
     w, a, phase = (list(column) for column in zip(*waves, strict=True))
     return hydrodae.Case.from_text(
@@ -83,7 +84,7 @@ motion = "{motion}"
 mass = 1e12
 inertia = [1e12, 1e12, 1e12]
 center_of_gravity = {toml([float(x) for x in at])}
-hydro = "float"
+{hull}
 {body}
 [[wave]]
 name = "pairs"

@@ -103,6 +103,7 @@ struct Fault {
 
 /// Keys of the struct `T`.
 template <class T> struct Fields : std::vector<AnyField> {
+  Fields() = default;
   Fields(std::initializer_list<Field<T>> fields) { assign(fields.begin(), fields.end()); }
   Fields(const Field<T>& field) { push_back(field); } // NOLINT: one field is a list of one
 

@@ -10,6 +10,7 @@ from hydrodae.case.callbacks.laws import Force
 from hydrodae.case.case import CaseLike, read_case
 from hydrodae.study.drift.judged import judged
 from hydrodae.study.grouped import grouped
+from hydrodae.study.slow.duration import short_run
 
 
 def check(
@@ -48,7 +49,7 @@ def check(
     text = examined.examine(drives, forces)
     if examined.unsampled:
         text += f"  look at: {examined.unsampled}\n"
-    text += "".join(f"  {line}\n" for line in judged(examined))
+    text += "".join(f"  {line}\n" for line in judged(examined) + short_run(examined))
     return text if every_line else grouped(text)
 
 

@@ -33,7 +33,6 @@ IDLE = {
 }
 #: Fields of effects that the kernel has another way, or not at all.
 LACKING = {
-    "meanDrift": "mean drift forces",
     "QTFs": "second-order forces (QTF)",
     "variableHydro.option": "variable hydrodynamics (tables that change in the run)",
     "largeXYDisplacement.option": 'large displacements: [sea] phase = "moving" is near to it',

@@ -18,6 +18,7 @@ from hydrodae.hdb.preparation.mirroring import mirrored
 from hydrodae.wecsim.air import add_orifice, atmosphere, has_orifice
 from hydrodae.wecsim.bodies import Bodies
 from hydrodae.wecsim.conditions import STUDY, find_conditions, write_study
+from hydrodae.wecsim.drift import add_drift
 from hydrodae.wecsim.hydro import find_source, read_database, with_radiation
 from hydrodae.wecsim.links import Links
 from hydrodae.wecsim.m_file import read_input
@@ -259,6 +260,8 @@ def _write(
     if database is not None:
         text.table("[hydro]", hydro, why)
     add_waves(text, read, target, None if database is None else database.omega)
+    if database is not None:
+        add_drift(text, read, database)
     bodies = Bodies(read, topology.names, database, rho, target, modes)
     carriers = _carriers(text, topology, bodies)
     links = Links(read, topology, bodies, carriers)

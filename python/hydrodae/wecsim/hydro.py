@@ -15,6 +15,7 @@ from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.preparation.fitting import fit, kernel
 from hydrodae.hdb.preparation.importing import import_database
 from hydrodae.hdb.readers.reading import read
+from hydrodae.wecsim.drift import with_drift
 from hydrodae.wecsim.m_file import calls
 from hydrodae.wecsim.objects import InputFile
 
@@ -93,7 +94,7 @@ def _named_by_bemio(folder: Path) -> list[Path]:
 def in_water(database: HydroDatabase, rho: float, gravity: float) -> HydroDatabase:
     """Scale a database to another density and gravity, as WEC-Sim does.
 
-    A, B ~ rho; F and stiffness ~ rho g. Kernel and fits are left out.
+    A, B ~ rho; F, stiffness and loads of second order ~ rho g. Kernel and fits are left out.
 
     Parameters
     ----------
@@ -118,6 +119,10 @@ def in_water(database: HydroDatabase, rho: float, gravity: float) -> HydroDataba
         froude_krylov=force * database.froude_krylov,
         diffraction=force * database.diffraction,
         bodies=stiffness,
+        second_order={
+            kind: replace(table, values=force * table.values)
+            for kind, table in database.second_order.items()
+        },
         rho=rho,
         gravity=gravity,
         kernel=None,
@@ -138,7 +143,7 @@ def read_database(
         [kg/m3], [m/s2].
     """
     old = list(read(source).bodies)
-    renaming = {}
+    renaming: dict[str, str] = {}
     for number, name in names.items():
         if number > len(old) and not (len(names) == len(old) == 1):
             raise CaseError(
@@ -168,7 +173,7 @@ def read_database(
         if there != here:
             text = f"simu.{what} = {here:g}, to which its {there:g} is scaled, as in WEC-Sim"
             file.remarks.assumed(source.name, text)
-    return in_water(database, rho, gravity)
+    return in_water(with_drift(database, source, renaming, file), rho, gravity)
 
 
 def with_radiation(

@@ -158,6 +158,25 @@ class SecondOrderTable:
             computed=self.computed[..., at],
         )
 
+    def same_waves(self, other: SecondOrderTable) -> bool:
+        """Return whether another table has the same frequencies and headings."""
+        return all(
+            getattr(self, n).shape == getattr(other, n).shape
+            and np.allclose(getattr(self, n), getattr(other, n), rtol=1e-5)
+            for n in ("omega", "heading1", "heading2")
+        )
+
+    def beside(self, other: SecondOrderTable) -> SecondOrderTable:
+        """Return the coordinates of both tables, which have the same waves, as one table."""
+        return replace(
+            self,
+            coordinates=self.coordinates + other.coordinates,
+            method=self.method + other.method,
+            values=np.concatenate([self.values, other.values], axis=-1),
+            computed=np.concatenate([self.computed, other.computed], axis=-1),
+            source=", ".join(dict.fromkeys((self.source, other.source))),
+        )
+
     def moved(self, shifts: Mapping[str, Array]) -> SecondOrderTable:
         """Return the table about other points; `shifts` are old minus new points of bodies [m].
 

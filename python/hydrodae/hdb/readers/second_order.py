@@ -10,8 +10,6 @@ from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 
-import numpy as np
-
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.coordinates import check_body
@@ -20,6 +18,7 @@ from hydrodae.hdb.database.second_order import KINDS, SecondOrderTable
 from hydrodae.hdb.labels import bodies_of, six_of_each
 from hydrodae.hdb.readers import (
     aqwa_drift,
+    bemio_drift,
     capytaine_drift,
     hydrostar_drift,
     nemoh_drift,
@@ -32,14 +31,15 @@ from hydrodae.hdb.readers.source import Scales, SourceData
 
 READERS: dict[str, ModuleType] = {
     "wamit": wamit_drift,
+    "bemio": bemio_drift,
     "nemoh": nemoh_drift,
     "aqwa": aqwa_drift,
     "orcawave": orcawave_drift,
     "hydrostar": hydrostar_drift,
 }
 EXPECTED = (
-    ".7 .8 .9 .10d .11d .12d .10s .11s .12s of WAMIT, OUT_QTFM_N*.dat of Nemoh, .rao of HydroStar "
-    "with #QTFTYPE, .QTF of AQWA, .yml of OrcaFlex"
+    ".7 to .12 or .out of WAMIT, .h5 of BEMIO, OUT_QTFM_N*.dat of Nemoh, "
+    ".rao of HydroStar with #QTFTYPE, .QTF of AQWA, .yml of OrcaFlex"
 )
 #: The better ones first: pressures need the finest mesh, and the quadratic part is not all.
 METHODS = (
@@ -72,6 +72,7 @@ def named(
     files: Mapping[str, Sequence[str | Path]],
     owner: SourceData | HydroDatabase,
     findings: list[Finding],
+    methods: Sequence[str] = METHODS,
 ) -> dict[str, SecondOrderTable]:
     """Return the tables of files that the user names.
 
@@ -81,6 +82,8 @@ def named(
         By the name of the body whose loads they hold; "" where the files say it themselves.
     owner : SourceData or HydroDatabase
         What they belong to; findings about them go to `findings`.
+    methods : sequence of str
+        Of `METHODS`, the better ones first; loads by other methods are left out.
 
     Raises
     ------
@@ -99,7 +102,8 @@ def named(
                 if reader is wamit_drift and (length := wamit_drift.length_of(path)) is not None:
                     own = replace(setting, length=length)
                 entries += _read(reader, path, own, findings)
-    return _kept(_tables(entries, whole, findings), owner.coordinates, findings)
+    chosen = [e for e in entries if e.method in methods]
+    return _kept(_tables(chosen, whole, findings), owner.coordinates, findings)
 
 
 def setting_of(owner: SourceData | HydroDatabase) -> Setting:
@@ -174,15 +178,8 @@ def _best(tables: list[SecondOrderTable], findings: list[Finding]) -> SecondOrde
     for other in tables[1:]:
         lacking = [c for c in other.coordinates if c not in best.coordinates]
         more = other.selected(lacking) if best.of.axes == 1 and lacking else None
-        if more is not None and _same_waves(best, more):
-            best = replace(
-                best,
-                coordinates=best.coordinates + more.coordinates,
-                method=best.method + more.method,
-                values=np.concatenate([best.values, more.values], axis=-1),
-                computed=np.concatenate([best.computed, more.computed], axis=-1),
-                source=f"{best.source}, {more.source}",
-            )
+        if more is not None and best.same_waves(more):
+            best = best.beside(more)
             names = ", ".join(lacking)
             beside.append(f"{other.source} ({other.method[0]}), for {names} only")
         else:
@@ -196,15 +193,6 @@ def _best(tables: list[SecondOrderTable], findings: list[Finding]) -> SecondOrde
         text = f"{best.source} lacks the potential of second order: use .11 or .12 of WAMIT"
         findings.append(Finding("warning", CHECK, text))
     return best
-
-
-def _same_waves(first: SecondOrderTable, second: SecondOrderTable) -> bool:
-    names = ("omega", "heading1", "heading2")
-    return all(
-        getattr(first, n).shape == getattr(second, n).shape
-        and np.allclose(getattr(first, n), getattr(second, n), rtol=1e-5)
-        for n in names
-    )
 
 
 def _kept(

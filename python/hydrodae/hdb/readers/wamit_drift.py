@@ -1,7 +1,8 @@
 """Second order of WAMIT: mean drift `.7 .8 .9`, and loads of two waves `.10 .11 .12`, each d and s.
 
 Phasors are e^{+iwt} with the phase zero at the origin, as here: T of difference is that of
-A_1 conj(A_2). Loads are F/(rho g L), moments F/(rho g L^2), over the two amplitudes.
+A_1 conj(A_2). Loads are F/(rho g L), moments F/(rho g L^2), over the two amplitudes. The listing
+`.out` has mean drift with fewer figures.
 """
 
 from __future__ import annotations
@@ -16,9 +17,10 @@ from hydrodae.hdb.database.second_order import OF_ALL_BODIES
 from hydrodae.hdb.labels import read_labels
 from hydrodae.hdb.readers.quadratic import Entries
 from hydrodae.hdb.readers.setting import Setting
-from hydrodae.hdb.readers.text import read_rows
+from hydrodae.hdb.readers.text import Rows, read_rows
 from hydrodae.hdb.readers.wamit import wamit_stem
 from hydrodae.hdb.readers.wamit_control import beside, read_control
+from hydrodae.hdb.readers.wamit_listing import is_listing, read_drift
 from hydrodae.hdb.readers.wamit_tables import COLUMNS, check_parts, to_omega, unit
 
 #: Kind and method of each file, the better ones first: pressures need finer meshes than the far
@@ -37,29 +39,46 @@ SUFFIXES = {
 
 
 def find(source: Path) -> list[Path]:
-    """Return the files of second order beside a file of a run, or of that name themselves."""
+    """Return the files of second order beside a file of a run, or of that name themselves.
+
+    The listing is one of them where it is the source, and there is no numeric file of mean drift.
+    """
     if source.suffix.lower() in SUFFIXES:
         return [source]
     stem = wamit_stem(source)
     if stem is None:
         return []
-    return [path for suffix in SUFFIXES if (path := beside(stem, suffix)) is not None]
+    found = [path for suffix in SUFFIXES if (path := beside(stem, suffix)) is not None]
+    listed = is_listing(source) and not any(SUFFIXES[p.suffix.lower()][0] == "mean" for p in found)
+    return [*found, source] if listed else found
 
 
-def read(path: Path, setting: Setting, findings: list[Finding]) -> Entries | None:
-    """Read one file; None where its loads belong to no single body.
+def read(path: Path, setting: Setting, findings: list[Finding]) -> list[Entries]:
+    """Read one file, without loads that belong to no single body.
 
     Raises
     ------
     DatabaseError
         A line of another form, or a mode of another body.
     """
-    kind, method = SUFFIXES[path.suffix.lower()]
+    suffix = path.suffix.lower()
+    tables = {suffix: None} if suffix in SUFFIXES else read_drift(path)
+    return [
+        entries
+        for suffix, rows in tables.items()
+        if (entries := _entries(path, suffix, rows, setting, findings)) is not None
+    ]
+
+
+def _entries(
+    path: Path, suffix: str, rows: Rows | None, setting: Setting, findings: list[Finding]
+) -> Entries | None:
+    kind, method = SUFFIXES[suffix]
     if method in OF_ALL_BODIES and len(setting.bodies) > 1:
-        text = f"{path.name} is the sum over {len(setting.bodies)} bodies: not read"
+        text = f"{path.name} ({method}) is the sum over {len(setting.bodies)} bodies: not read"
         findings.append(Finding("info", "second order", text))
         return None
-    rows = read_rows(path, COLUMNS[path.suffix.lower()])
+    rows = read_rows(path, COLUMNS[suffix]) if rows is None else rows
     kept = rows.modes[:, 0] > 0.0  # negative modes: the same loads in other axes
     if not kept.all():
         text = f"{path.name}: {(~kept).sum()} lines of negative modes, in other axes: left out"

@@ -26,6 +26,12 @@ _LIMITS = {"infinite": -1.0, "zero": 0.0}
 #: Titles of tables; those of forces, best first: by pressure (.3), by Haskind's relation (.2).
 _RADIATION = "ADDED-MASS"
 _FORCES = ("DIFFRACTION EXCITING FORCES", "HASKIND EXCITING FORCES")
+#: Titles of tables of mean drift end so; each has the columns of a numeric file.
+_DRIFT = {
+    "(Control Surface)": ".7",
+    "(Momentum Conservation)": ".8",
+    "(Pressure Integration)": ".9",
+}
 
 
 def is_listing(path: Path) -> bool:
@@ -86,6 +92,33 @@ def read_listing(path: Path) -> tuple[Rows, Rows | None]:
     best = next((found[title] for title in _FORCES if found[title]), None)
     radiation = _once(path, COLUMNS[".1"], found[_RADIATION])
     return radiation, None if best is None else _once(path, COLUMNS[".3"], best)
+
+
+@names_file
+def read_drift(path: Path) -> dict[str, Rows]:
+    """Read the tables of mean drift: rows as of `.7`, `.8` and `.9`, empty without such tables.
+
+    Raises
+    ------
+    DatabaseError
+        A line is not of that form; the message names file and line.
+    """
+    found: dict[str, list[list[float]]] = {}
+    period, headings, suffix = np.nan, list[float](), ""
+    for count, line in enumerate(read_lines(path), start=1):
+        if stated := _PERIOD.search(line):
+            word = stated[1].lower()
+            period, suffix = _LIMITS[word] if word in _LIMITS else number(word), ""
+        elif re.match(r"\s+[A-Z]{4,}", line):
+            titles = _DRIFT if "DRIFT FORCES" in line else ()
+            suffix = next((_DRIFT[title] for title in titles if title in line), "")
+        elif suffix and _HEADING.search(line):
+            headings = numbers(line.partition(":")[2], count)
+        elif suffix and re.match(r"\s*\d+\s", line):
+            first = " ".join(line.split()[:3])  # moments in the axes of the body follow
+            row = [count, period, *headings, *_force(count, first, 0.0)[1:]]
+            found.setdefault(suffix, []).append(row)
+    return {suffix: _once(path, COLUMNS[suffix], rows) for suffix, rows in found.items()}
 
 
 def _radiation(count: int, line: str) -> list[float]:
