@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
@@ -33,7 +34,13 @@ def write(path: Path, columns: int | None = None) -> None:
     """A file as BEMIO makes them: scaled by rho, rho w, rho g; rows of a body, columns of all."""
     found, start = tables(), 0
     with h5py.File(path, "w") as f:
-        settings = {"rho": RHO, "g": GRAVITY, "w": OMEGA, "wave_dir": [0.0], "scaled": 0.0}
+        settings: dict[str, Any] = {
+            "rho": RHO,
+            "g": GRAVITY,
+            "w": OMEGA,
+            "wave_dir": [0.0],
+            "scaled": 0.0,
+        }
         for key, value in {**settings, "water_depth": 50.0}.items():
             f[f"simulation_parameters/{key}"] = np.atleast_1d(value)
         for number, count in enumerate(COUNTS, start=1):
@@ -63,7 +70,9 @@ def test_modes_of_two_bodies(tmp_path: Path) -> None:
     force = found.excitation[:, 0]
     np.testing.assert_allclose(force, exact["force"][:, 0].T)
     for name, own in (("part1", slice(0, 7)), ("part2", slice(7, 15))):
-        np.testing.assert_allclose(found.bodies[name].mode_stiffness, exact["stiffness"][own, own])
+        stiffness = found.bodies[name].mode_stiffness
+        assert stiffness is not None
+        np.testing.assert_allclose(stiffness, exact["stiffness"][own, own])
 
 
 def test_modes_survive_the_file_of_the_project(tmp_path: Path) -> None:

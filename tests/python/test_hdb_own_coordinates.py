@@ -15,6 +15,7 @@ from hydrodae.commands.hdb.own_coordinates import with_own_coordinates
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.bem import modes, shapes
 from hydrodae.hdb.bem.lids import lid, pools
+from hydrodae.hdb.bem.revolution import ring
 from hydrodae.hdb.bem.run import Settings, WettedBody
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.preparation import computing
@@ -40,7 +41,7 @@ def test_piston_of_wamit(reference: Path, tmp_path: Path) -> None:
     """A77, B77 and F7 of test17a at k = 0.1, 1, 1.5 and 2 1/m, each within 3 %."""
     pytest.importorskip("capytaine", reason="needs the extra bem")
     exact, at = column(reference), [0, 9, 14, 19]
-    hull = shapes.ring(0.071, radius=0.5, inner=0.25, draft=1.0)
+    hull = ring(0.071, radius=0.5, inner=0.25, draft=1.0)
     alone = [WettedBody("owc", hull, np.zeros(3))]
     bodies = with_own_coordinates(alone, pistons=True, formulas=[])
     settings = Settings(omega=exact.omega[at], rho=1000.0, gravity=9.80665)
@@ -124,7 +125,7 @@ def test_divergence_of_a_field() -> None:
 @pytest.mark.parametrize("size", [0.085, 0.12, 0.3])
 def test_lids_and_pools_of_a_ring_have_no_slivers(size: float) -> None:
     """Corners on one ray, whose angles differ by rounding, make no panels without width."""
-    hull = shapes.ring(size, radius=0.5, inner=0.25, draft=1.0)
+    hull = ring(size, radius=0.5, inner=0.25, draft=1.0)
     for panels, area in ((lid(hull), 3.0 * AREA), (pools(hull)[0], AREA)):
         _, areas = modes.centers_and_areas(panels)
         assert -areas[:, 2].min() > 0.0

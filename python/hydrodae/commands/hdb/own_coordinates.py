@@ -20,17 +20,17 @@ def add_own_coordinates(compute: argparse.ArgumentParser) -> None:
     compute.add_argument(
         "--piston",
         action="store_true",
-        help="panels on the free surface inside a hollow body; its rise against the body [m] is the "
-        "coordinate BODY.piston, of several piston1, piston2 and so on",
+        help="panels on the free surface inside a hollow body. Its rise against the body [m] is "
+        "the coordinate BODY.piston; of several piston1, piston2 and so on",
     )
     compute.add_argument(
         "--mode",
         metavar="BODY.NAME=FORMULA",
         action="append",
         default=[],
-        help="a coordinate of the hull: its rise per unit amplitude as a formula of the place x, y, "
-        "z [m], as in barge.bend='cos(2*pi*x/80)'. Three with commas are displacements along x, y "
-        "and z. May be repeated",
+        help="a coordinate of the hull: its rise per unit amplitude by a formula of x, y, z [m], "
+        "as in barge.bend='cos(2*pi*x/80)'. Three with commas are displacements along x, y and z. "
+        "May be repeated",
     )
 
 
@@ -57,8 +57,8 @@ def with_own_coordinates(
     made = [_with_pools(body) for body in bodies] if pistons else list(bodies)
     if pistons and not any(len(body.pool) for body in made):
         raise CaseError(
-            "--piston: no body has a free surface inside its hull; ring:radius=..:inner=..:draft=.. "
-            "has one"
+            "--piston: no body has a free surface inside its hull; one with is "
+            "ring:radius=..:inner=..:draft=.."
         )
     given: dict[str, dict[str, str]] = {}
     for text in formulas:

@@ -1,8 +1,8 @@
 """Own coordinates of bodies in a boundary-element run: pistons on pools, shapes by formula.
 
 A mode is a field of displacement u(x, y, z) per unit amplitude. Its hydrostatic stiffness, that of
-the pressure alone, is C_ij = -rho g int n.u_j (w_i + z div u_i) dS with w = u_z and normals into the
-water (Newman 1994, Applied Ocean Research 16, 47): rows are loads, weight has no part in it.
+the pressure alone, is C_ij = -rho g int n.u_j (w_i + z div u_i) dS with w = u_z and normals into
+the water (Newman 1994, Applied Ocean Research 16, 47): rows are loads, weight has no part in it.
 """
 
 from __future__ import annotations

@@ -95,7 +95,7 @@ class Control:
         """
         extra = [self.new_modes.get(i + 1, 0) for i in range(bodies)]
         counts = [6 + n for n in extra] if any(extra) or bodies > 1 else [max(6, most)]
-        return np.r_[0, np.cumsum(counts)]
+        return np.cumsum([0, *counts], dtype=float)
 
 
 def read_control(stem: Path) -> Control:
