@@ -20,6 +20,12 @@ name = "buoy"
 motion = "fixed"
 mass = 1.0
 center_of_gravity = [0, 0, 0]
+[[morison]]
+name = "ball"
+body = "buoy"
+point = [0, 0, -1]
+volume = 1.0
+added_mass_coefficient = 0.5
 [[wave]]
 name = "sea"
 type = "TYPE"
