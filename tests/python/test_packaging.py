@@ -100,6 +100,22 @@ def test_every_download_of_scripts_and_workflows_has_a_hash(repository: Path) ->
     assert downloads == 3
 
 
+def test_version_of_the_package_is_that_of_cmake(repository: Path, project: dict[str, Any]) -> None:
+    """Numbers, and `.dev0` behind them but for a tag; changelog and pages have the numbers."""
+    setting = project["tool"]["scikit-build"]["metadata"]["version"]
+    found = re.search(setting["regex"], (repository / setting["input"]).read_text())
+    assert found is not None
+    version = setting["result"].format(**found.groupdict())
+    assert re.fullmatch(r"\d+\.\d+\.\d+(\.dev\d+)?", version)
+    released = re.search(r"^## \[?(\d[\d.]*)", changelog(repository), re.M)
+    assert released is not None
+    number = [*map(int, found["value"].split("."))]
+    last = [*map(int, released[1].split("."))]
+    assert number > last if found["dev"] else number == last
+    minor = ".".join(found["value"].split(".")[:2])
+    assert f"find_package(hydrodae {minor} " in (repository / "docs" / "install.md").read_text()
+
+
 def test_citation_has_the_version_and_its_date(repository: Path, project: dict[str, Any]) -> None:
     yaml = pytest.importorskip("yaml")
     citation = yaml.safe_load((repository / "CITATION.cff").read_text())
