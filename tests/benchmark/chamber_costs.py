@@ -4,7 +4,8 @@
 
 The starter `owc` in its sea, without the second run that estimates the error. The damper takes
 what the Wells turbine takes at small pressures without the spring of the air. Times are the least
-of some runs. Ratios asked for: 1.15 with the Wells turbine, 1.5 with an orifice that is laminar up to 1 Pa.
+of some runs. Ratios asked for: 1.15 with the Wells turbine, 1.5 with an orifice that is laminar up
+to 1 Pa.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """Oscillating water columns of WEC-Sim: the air above a column, and what lets it through.
 
-Two laws are known, by the names of their variables in the input file. The first is an orifice on the
-mode of a free surface: `A1`, `A2`, `C`, `rhoAir`, in a copy of the block of a flexible body. The other
-is a Wells turbine on a chamber, `airChamber(1)` and `turb(1)`, that drives the take-off between a hull
-and its column.
+Two laws are known, by the names of their variables in the input file. The first is an orifice on
+the mode of a free surface: `A1`, `A2`, `C`, `rhoAir`, in a copy of the block of a flexible body.
+The other is a Wells turbine on a chamber, `airChamber(1)` and `turb(1)`, that drives the take-off
+between a hull and its column.
 """
 
 from __future__ import annotations
