@@ -1,10 +1,11 @@
-"""What a chamber of air costs: processor time of runs with it against a linear take-off in its place.
+"""What a chamber of air costs: processor time of runs, against a linear take-off in its place.
 
     .venv/bin/python tests/benchmark/chamber_costs.py
 
-The starter `owc` in its sea, without the second run that estimates the error. The damper takes what
-the Wells turbine takes at small pressures without the spring of the air. Times are the least of some
-runs. Ratios asked for: 1.15 with the Wells turbine, 1.5 with an orifice that is laminar up to 1 Pa.
+The starter `owc` in its sea, without the second run that estimates the error. The damper takes
+what the Wells turbine takes at small pressures without the spring of the air. Times are the least
+of some runs. Ratios asked for: 1.15 with the Wells turbine, 1.5 with an orifice that is laminar up
+to 1 Pa.
 """
 
 from __future__ import annotations
@@ -39,7 +40,9 @@ def cases(folder: Path, end: float) -> dict[str, hydrodae.Case]:
     flow = turbine["flow_slope"] * turbine["diameter"] / turbine["speed"]  # kg/(s Pa)
     made = {}
     for name in ("damper", "wells", "orifice"):
-        other = {key: [dict(t) for t in v] if isinstance(v, list) else v for key, v in tables.items()}
+        other = {
+            key: [dict(t) for t in v] if isinstance(v, list) else v for key, v in tables.items()
+        }
         if name == "damper":
             for key in ("chamber", "piston", "outlet"):
                 del other[key]

@@ -1,4 +1,4 @@
-"""Two floats on a hinge in waves: as two bodies on a joint, and as one body with the hinge as mode."""
+"""Two floats on a hinge in waves: two bodies on a joint, and one body with the hinge as mode."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     stiffness[at] = FLOATS.T @ rows @ FLOATS
     middle = np.array([-HALF, 0.0, -DEPTH])
     moments = np.array([0.0, 0.0, 2.0 * (second + area * HALF**2), 0.0, 0.0])
-    centre = middle + [0.0, 0.0, statics.center_of_buoyancy[2] + DEPTH]
+    centre = middle + np.array([0.0, 0.0, statics.center_of_buoyancy[2] + DEPTH])
     whole = Hydrostatics(2.0 * volume, centre, 2.0 * area, moments)
     HydroDatabase(
         tuple(f"barge.{motion}" for motion in (*motions, "hinge")),

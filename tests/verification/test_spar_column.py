@@ -1,4 +1,4 @@
-"""The floating column of the starter: natural periods, seas with two turbines, a held speed, powers."""
+"""The floating column of the starter: natural periods, two turbines, a held speed, powers."""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
 """Oscillating water columns of WEC-Sim: the air above a column, and what lets it through.
 
-Two laws are known, by the names of their variables in the input file: an orifice on the mode of a
-free surface (`A1`, `A2`, `C`, `rhoAir`, in a copy of the block of a flexible body), and a Wells
-turbine on a chamber (`airChamber(1)`, `turb(1)`) that drives the take-off between a hull and its
-column.
+Two laws are known, by the names of their variables in the input file. The first is an orifice on
+the mode of a free surface: `A1`, `A2`, `C`, `rhoAir`, in a copy of the block of a flexible body.
+The other is a Wells turbine on a chamber, `airChamber(1)` and `turb(1)`, that drives the take-off
+between a hull and its column.
 """
 
 from __future__ import annotations
@@ -86,9 +86,7 @@ def add_orifice(
     expected = database.rho * database.gravity * piston
     mode = modes.names[min(water, key=lambda k: float(abs(stiffness[k] - expected)))]
     text.table("[[chamber]]", {"name": "air", "volume": HEIGHT * piston})
-    text.table(
-        "[[piston]]", {"name": "surface", "chamber": "air", "mode": mode, "area": piston}
-    )
+    text.table("[[piston]]", {"name": "surface", "chamber": "air", "mode": mode, "area": piston})
     keys: dict[str, Any] = {"name": "orifice", "type": "orifice", "chamber": "air"}
     text.table("[[outlet]]", keys | {"coefficient": coefficient, "area": hole})
     read.remarks.assumed(
@@ -123,7 +121,9 @@ def add_turbine(text: CaseText, read: InputFile, joint: str, blocks: list[Block]
     turbine = [f"turb(1).{name}" for name in ("Dr", "kappa", "iTurb")]
     diameter, slope, inertia = _numbers(read, *turbine)
     torque, power = np.ravel(evaluate(read, "turb(1).control"))
-    starts = [b.parameters["InitialCondition"] for b in blocks if "InitialCondition" in b.parameters]
+    starts = [
+        b.parameters["InitialCondition"] for b in blocks if "InitialCondition" in b.parameters
+    ]
     speed = max(_numbers(read, *starts), default=0.0)
     at, efficiency = _efficiency(read)
     text.table("[[chamber]]", {"name": "air", "volume": volume, "exponent": exponent})

@@ -152,6 +152,8 @@ class Bodies:
             item.used.add("geometryFile")
         if name in self.modes:
             add_modes(text, self.read, item, name, self.modes[name])
+        elif item.whole("flex"):
+            self._left_out(item, "flex", "generalised modes, which the database lacks", "modes")
         self._notes(item, keys)
         if motion != "fixed":
             self._damping(text, item, name)
