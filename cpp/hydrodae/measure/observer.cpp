@@ -60,7 +60,7 @@ Observer::Observer(const Regime& system) : s_(system), ws_(system) {
       in_waves_ = &laws;
   }
   out_.in_waves = in_waves_ != nullptr;
-  const Eigen::Index loads = s_.hydro.added_mass_all.rows();
+  const Eigen::Index loads = s_.hydro.added_mass.all.rows();
   rate_ = momentum_ = radiation_ = VectorX::Zero(loads);
 }
 
