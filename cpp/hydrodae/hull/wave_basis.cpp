@@ -56,7 +56,7 @@ void add_band(const std::vector<const Wave*>& all, double reach, WaveBasis& out)
   out.bands.push_back(band);
 }
 
-/// Least degree with the error `least` of sum |a_j|; -1: there is none that is exact enough.
+/// Least degree with the error `least` of sum |a_j|; -1: no degree is exact enough.
 int least_degree(const std::vector<Wave>& waves, double reach) {
   double whole = 0.0;
   std::vector<double> rest;

@@ -79,7 +79,7 @@ public:
   /// A view large enough for this field.
   WaveView make_view() const;
 
-  /// Moves a view to another time and origin, in world axes; without `gradients` it has none.
+  /// Moves a view to another time and origin, in world axes; its gradients only with `gradients`.
   void look(const Instant& instant, const Vector3& origin, WaveView& view,
             bool gradients = true) const;
 

@@ -194,7 +194,7 @@ HYDRODAE_PART void sum_harmonics(const WaveBasis& basis, const double* moments,
             even[l][p] += a[2 * l] * q[p];
             odd[l][p] += a[2 * l + 1] * q[p];
           }
-          // b of the next degree; there is none behind the last
+          // b of the next degree, 0 behind the last
           const double next_b = n < basis.harmonics.degree ? b[n - m + 1] : 0.0;
           const R next = z[p] * q[p] - (next_b * r2[p]) * before[p];
           before[p] = q[p];

@@ -26,7 +26,7 @@ template <class Visit> constexpr void for_each_rung(Visit&& visit) {
   }(std::type_identity<Radiation>{});
 }
 
-/// Keys of one rung; bases of different rungs, though most rungs have none.
+/// Keys of one rung. Each rung has a base of its own, though most of them are empty.
 template <class Rung> struct KeysOfRung : Rung::Keys {};
 /// Keys of all rungs.
 template <class List> struct KeysOfRungs;

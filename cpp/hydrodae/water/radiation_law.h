@@ -81,7 +81,7 @@ struct RadiationLaw {
   template <class Law>
   void add_pose(const Law& /*there*/, const WetBodies&, int /*hydro_body*/, int /*weight*/,
                 bool /*blends_memory*/) {}
-  /// Adds the memory of one body at rest, if its poses have none of their own.
+  /// Adds the memory of one body at rest, if its poses share it.
   template <class Law> void add_rest(const Law&) {}
 
   int n_states() const { return 0; }
