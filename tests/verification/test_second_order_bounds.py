@@ -46,6 +46,17 @@ def incomplete(table: SecondOrderTable) -> SecondOrderTable:
     return replace(table, computed=computed)
 
 
+def turned(i: int, j: int) -> Change:
+    """The load of the pair (i, j) turned by 0.01 rad; that of (j, i), if another one, as it is."""
+
+    def change(table: SecondOrderTable) -> SecondOrderTable:
+        values = table.values.copy()
+        values[i, j] *= np.exp(0.01j)
+        return replace(table, values=values)
+
+    return change
+
+
 def wide() -> HydroDatabase:
     """The made-up body in waves from two headings; the tables of second order have one."""
     owner = floating()
@@ -88,6 +99,8 @@ def diagonal(factor: float) -> Change:
         (unchanged, {"heading": 20.0}, "second_order.loads", "outside the headings of the table"),
         (unchanged, {"waves": [*WAVES, (2.0, 0.5, 0.0)]}, "second_order.lost_variance",
          "10 % of the variance of the waves lies outside the frequencies"),
+        (turned(2, 2), {}, "second_order.loads", "of two equal waves of .* a mean is real"),
+        (turned(1, 2), {}, "second_order.loads", "from the same waves in the other order"),
         (incomplete, {}, "second_order.loads", "not computed for float.surge at 0.85 and 0.8"),
         (unchanged, {"loads": ["sum"]}, "second_order.loads", "needs a table of sums"),
         (unchanged, {"loads": ["mean", "newman"]}, "second_order.loads", "expected one of"),

@@ -78,29 +78,51 @@ PairTable::PairTable(const hydro::Database& db, const hydro::SecondOrderTable& t
           pair_(p, q) = static_cast<int>(h);
           crossed_ = crossed_ || !alike(own[p], own[q]);
         }
-  if (table.symmetric())
-    return;
+  for (int c = 0; c < 6; ++c)
+    if (loads(c))
+      check_orders(c);
+}
+
+/// Two waves load alike in either order: T_ji = conj T_ij of differences, T_ij of sums; the load of
+/// a wave with itself is real.
+void PairTable::check_orders(int c) const {
   constexpr double noise = 1e-3; // of tables, as in the symmetry of headings (docs/axes.md)
-  for (int c = 0; c < 6; ++c) {
-    if (!loads(c))
-      continue;
-    for (Index p = 0; p < own.size(); ++p) {
-      const Eigen::MatrixXcd T = cube(p, p, c);
-      const double largest = T.array().isFinite().select(T, 0.0).cwiseAbs().maxCoeff();
-      for (Index i = 0; i < T.rows(); ++i) {
-        const std::complex<double> mean = T(i, table.one_axis() ? 0 : i);
-        if (std::abs(mean.imag()) > noise * largest)
-          throw ModelError(
-              "second_order.loads",
-              "the table " + in_quotes(table.kind) + " of " + db.path + " has the load " +
-                  number_text(mean.real()) + " + " + number_text(mean.imag()) +
-                  "i of two equal waves of " + number_text(table.omega[i]) + " rad/s on " +
-                  table
-                      .coordinates[static_cast<std::size_t>(column_[static_cast<std::size_t>(c)])] +
-                  ": a mean is real; import it again from its source");
-      }
-    }
-  }
+  const Index column = column_[static_cast<std::size_t>(c)], n = table_.omega.size();
+  double largest = 0.0, worst = 0.0;
+  std::array<std::complex<double>, 2> at_worst{};
+  Index first = 0, second = 0;
+  const Index nh = headings_.table().size();
+  for (Index p = 0; p < nh; ++p)
+    for (Index q = 0; q < nh; ++q)
+      for (Index i = 0; i < n; ++i)
+        for (Index j = table_.one_axis() ? i : 0; j < (table_.one_axis() ? i + 1 : n); ++j) {
+          const auto both = both_orders(i, j, p, q, column);
+          const double gap = std::abs(both[0] - both[1]); // NaN if one is not computed
+          if (std::abs(both[0]) > largest)
+            largest = std::abs(both[0]);
+          if (gap > worst) {
+            worst = gap;
+            at_worst = both;
+            first = i;
+            second = j;
+          }
+        }
+  if (!(worst > noise * largest))
+    return;
+  const auto text = [](const std::complex<double>& load) {
+    return number_text(load.real()) + " + " + number_text(load.imag()) + "i";
+  };
+  const std::string what =
+      first == second ? "of two equal waves of " + number_text(table_.omega[first]) + " rad/s"
+                      : "of waves of " + number_text(table_.omega[first]) + " and " +
+                            number_text(table_.omega[second]) + " rad/s";
+  throw ModelError("second_order.loads",
+                   "the table " + in_quotes(table_.kind) + " of " + db_.path + " has the load " +
+                       text(at_worst[0]) + " " + what + " on " +
+                       table_.coordinates[static_cast<std::size_t>(column)] + ", and " +
+                       text(at_worst[1]) +
+                       " from the same waves in the other order: they must be equal, and a mean "
+                       "is real; import it again from its source");
 }
 
 bool PairTable::covers(double omega) const {
@@ -108,18 +130,21 @@ bool PairTable::covers(double omega) const {
          omega <= table_.omega[table_.omega.size() - 1] * (1.0 + slack_w);
 }
 
-/// As stored, or by the pair in the other order; NaN where neither is computed.
-std::complex<double> PairTable::value(Index i, Index j, Index p, Index q, Index column) const {
+std::array<std::complex<double>, 2> PairTable::both_orders(Index i, Index j, Index p, Index q,
+                                                           Index column) const {
   const auto stored = [&](Index a, Index b, int h) -> std::complex<double> {
     if (h < 0)
       return NAN;
     const std::size_t k = table_.at(a, b, h, column);
     return table_.computed[k] ? table_.values[k] : NAN;
   };
-  const std::complex<double> own = stored(i, j, pair_(p, q));
-  std::complex<double> mate = stored(j, i, pair_(q, p));
-  if (!table_.symmetric())
-    mate = std::conj(mate);
+  const std::complex<double> mate = stored(j, i, pair_(q, p));
+  return {stored(i, j, pair_(p, q)), table_.symmetric() ? mate : std::conj(mate)};
+}
+
+/// Mean of both orders, or the one that is computed; NaN where neither is.
+std::complex<double> PairTable::value(Index i, Index j, Index p, Index q, Index column) const {
+  const auto [own, mate] = both_orders(i, j, p, q, column);
   if (std::isnan(own.real()))
     return mate;
   return std::isnan(mate.real()) ? own : 0.5 * (own + mate);

@@ -14,7 +14,8 @@ namespace hydrodae::build {
 class PairTable {
 public:
   /// @param body of the database
-  /// Throws ModelError for a table whose diagonal is not real.
+  /// Throws ModelError for a table that differs between both orders of two waves, or whose diagonal
+  /// is not real.
   PairTable(const hydro::Database& db, const hydro::SecondOrderTable& table,
             const hydro::DatabaseBody& body);
 
@@ -34,6 +35,10 @@ public:
   VectorX single(int c, const VectorX& omega, const VectorX& relative_heading) const;
 
 private:
+  void check_orders(int c) const;
+  /// T as stored, and from the same two waves in the other order; NaN where not computed.
+  std::array<std::complex<double>, 2> both_orders(Index i, Index j, Index p, Index q,
+                                                  Index column) const;
   std::complex<double> value(Index i, Index j, Index p, Index q, Index column) const;
   Eigen::MatrixXcd cube(Index p, Index q, int c) const;
   [[noreturn]] void refuse_missing(int c, double first, double second) const;
