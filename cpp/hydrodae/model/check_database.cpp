@@ -136,20 +136,20 @@ void check_kernel(const Scene& scene) {
 }
 
 /// A key that belongs to one rung stands beside no other; a key that its rung needs is there.
-void check_rung(const HydroOptions& hydro) {
+void check_rung(HydroOptions hydro) {
   water::for_each_rung([&]<class Rung>(std::type_identity<Rung>) {
     const std::string name = "radiation = " + in_quotes(std::string(Rung::type));
     const bool own = Rung::type == hydro.radiation;
-    for (const Field<HydroOptions>& field : Rung::template keys<HydroOptions>()) {
+    for (const AnyField& field : Rung::template keys<HydroOptions>()) {
       const std::string key(field.key);
       const bool given = std::visit(
-          [&](auto member) {
-            if constexpr (requires { (hydro.*member).has_value(); })
-              return (hydro.*member).has_value();
+          [](auto* value) {
+            if constexpr (requires { value->has_value(); })
+              return value->has_value();
             else
               return false;
           },
-          field.member);
+          field.in(&hydro));
       if (given && !own)
         throw ModelError("hydro." + key, "'" + key + "' belongs to " + name +
                                              "; the radiation is " + in_quotes(hydro.radiation));
