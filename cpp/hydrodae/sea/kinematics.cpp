@@ -120,6 +120,14 @@ constexpr auto motion_avx2 = motion_plain, motion_avx512 = motion_plain,
 
 } // namespace
 
+std::size_t WaveTerms::size() const {
+  std::size_t n = lanes * groups_.size();
+  while (n % lanes != 1 && n > 0 && groups_.back().cosine[(n - 1) % lanes] == 0.0 &&
+         groups_.back().sine[(n - 1) % lanes] == 0.0)
+    --n;
+  return n;
+}
+
 WaveTerms::Term WaveTerms::operator[](std::size_t i) const {
   const Group& g = groups_[i / lanes];
   const std::size_t k = i % lanes;
@@ -128,10 +136,10 @@ WaveTerms::Term WaveTerms::operator[](std::size_t i) const {
 }
 
 void WaveTerms::push_back(const Term& term) {
-  if (groups_.empty() || groups_.back().count == lanes)
+  const std::size_t k = size() % lanes;
+  if (k == 0)
     groups_.emplace_back();
   Group& g = groups_.back();
-  const std::size_t k = g.count++;
   g.omega[k] = term.omega;
   g.wavenumber[k] = term.wavenumber;
   g.phase[k] = term.phase;

@@ -45,16 +45,14 @@ public:
     double speed = 0.0;      ///< a w / (1 - e^{-2kh}) [m/s]
   };
   static constexpr std::size_t lanes = 8;
-  /// Numbers of the terms of a group, in the order of `Term`; those behind the last term are zero.
+  /// Numbers of the terms of a group, in the order of `Term`; behind the last term all are zero, so
+  /// that nothing travels there in any direction.
   struct Group {
     double omega[lanes], wavenumber[lanes], phase[lanes], cosine[lanes], sine[lanes],
         amplitude[lanes], reflection[lanes], speed[lanes];
-    std::size_t count; ///< of terms
   };
 
-  std::size_t size() const {
-    return groups_.empty() ? 0 : lanes * (groups_.size() - 1) + groups_.back().count;
-  }
+  std::size_t size() const;
   bool empty() const { return groups_.empty(); }
   void clear() { groups_.clear(); }
   void push_back(const Term& term);
