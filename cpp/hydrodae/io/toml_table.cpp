@@ -20,10 +20,12 @@ std::string types_hint(const Table& table) {
   return types.empty() ? "" : "; types with all the keys given: " + joined(types);
 }
 
-std::vector<std::string> keys_of(const toml::table& node) {
+/// Keys that a table has, and cannot have again: a list of tables takes more of them.
+std::vector<std::string> taken_keys(const toml::table& node) {
   std::vector<std::string> keys;
   for (const auto& [key, value] : node)
-    keys.emplace_back(key.str());
+    if (!value.is_array_of_tables())
+      keys.emplace_back(key.str());
   return keys;
 }
 
@@ -36,7 +38,7 @@ void check_keys(const Table& table, const std::vector<std::string>& valid) {
     throw CaseError(place_of(key.source()), path_of(table, key.str()),
                     "unknown key " + in_quotes(key.str()) + " in " + table.label +
                         (table.type.empty() ? "" : " of type " + table.type) + types_hint(table) +
-                        suggestion(key.str(), valid, keys_of(table.node)));
+                        suggestion(key.str(), valid, taken_keys(table.node)));
   }
 }
 
