@@ -18,6 +18,7 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -31,7 +32,7 @@ sys.path.insert(0, str(ROOT))
 from tests import reference_data  # noqa: E402
 from tests.benchmark.yaw_axes import CENTER, DRAFT, MASS, RADIUS, SEAS, water  # noqa: E402
 
-ASKED = {"RM3 with drag": 1.3, "mesh, spreading sea": 15.0}
+AIMS = {"RM3 with drag": 1.3, "mesh, spreading sea": 15.0}
 
 
 def rm3(folder: Path, end: float) -> dict[str, hydrodae.Case]:
@@ -76,7 +77,7 @@ def cylinder(folder: Path, sea: str, meshed: bool, end: float) -> hydrodae.Case:
     """A cylinder on a soft spring, linear or with the pressure on its wetted surface."""
     made = hydrodae.Scene("Cylinder", directory=folder)
     made.hydro(database="cylinder.h5")
-    mesh = {"mesh": "cylinder.stl", "hydrostatics": "mesh", "froude_krylov": "mesh"}
+    mesh: dict[str, Any] = {"mesh": "cylinder.stl", "hydrostatics": "mesh", "froude_krylov": "mesh"}
     made.body(
         "buoy0",
         hydro="buoy0",
@@ -108,8 +109,8 @@ def measure(cases: dict[str, hydrodae.Case], path: Path, repeats: int) -> None:
             steps[name] = int(results.statistics["steps"])
     first = next(iter(least.values()))
     for name, seconds in least.items():
-        asked = f" (asked {ASKED[name]})" if name in ASKED else ""
-        ratio = f"{seconds / first:.2f} times{asked}"
+        aim = f" (aim: {AIMS[name]})" if name in AIMS else ""
+        ratio = f"{seconds / first:.2f} times{aim}"
         print(f"{name}: {1e3 * seconds:.1f} ms, {steps[name]} steps, {ratio}", flush=True)
 
 
