@@ -78,17 +78,34 @@ PairTable::PairTable(const hydro::Database& db, const hydro::SecondOrderTable& t
           pair_(p, q) = static_cast<int>(h);
           crossed_ = crossed_ || !alike(own[p], own[q]);
         }
+  const double force = largest(0), moment = std::max(largest(3), force * shortest_length());
   for (int c = 0; c < 6; ++c)
     if (loads(c))
-      check_orders(c);
+      check_orders(c, c < 3 ? force : moment);
+}
+
+/// Largest computed load on the coordinates c, c+1, c+2.
+double PairTable::largest(int c) const {
+  double out = 0.0;
+  for (int end = c + 3; c < end; ++c)
+    for (std::size_t k = 0; loads(c) && k < table_.values.size(); ++k)
+      if (table_.computed[k] &&
+          static_cast<Index>(k % table_.coordinates.size()) == column_[static_cast<std::size_t>(c)])
+        out = std::max(out, std::abs(table_.values[k]));
+  return out;
+}
+
+/// 1/k of the shortest wave [m]: the lever of a force whose moment is not yet noise.
+double PairTable::shortest_length() const {
+  return 1.0 / sea::wavenumber(table_.omega[table_.omega.size() - 1], db_.water_depth, db_.gravity);
 }
 
 /// Two waves load alike in either order: T_ji = conj T_ij of differences, T_ij of sums; the load of
-/// a wave with itself is real.
-void PairTable::check_orders(int c) const {
+/// a wave with itself is real. Differences are judged against the largest force, or moment.
+void PairTable::check_orders(int c, double largest) const {
   constexpr double noise = 1e-3; // of tables, as in the symmetry of headings (docs/axes.md)
   const Index column = column_[static_cast<std::size_t>(c)], n = table_.omega.size();
-  double largest = 0.0, worst = 0.0;
+  double worst = 0.0;
   std::array<std::complex<double>, 2> at_worst{};
   Index first = 0, second = 0;
   const Index nh = headings_.table().size();
@@ -98,8 +115,6 @@ void PairTable::check_orders(int c) const {
         for (Index j = table_.one_axis() ? i : 0; j < (table_.one_axis() ? i + 1 : n); ++j) {
           const auto both = both_orders(i, j, p, q, column);
           const double gap = std::abs(both[0] - both[1]); // NaN if one is not computed
-          if (std::abs(both[0]) > largest)
-            largest = std::abs(both[0]);
           if (gap > worst) {
             worst = gap;
             at_worst = both;
