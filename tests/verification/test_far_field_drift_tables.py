@@ -72,6 +72,23 @@ def test_the_command_writes_a_table(
         write_database(tmp_path / "hydro.h5", found, LinearModel(case_file))
 
 
+@pytest.mark.parametrize(("part", "severity"), [(1e-12, "info"), (0.01, "error")])
+def test_a_yaw_of_rounding_is_no_fault(
+    part: float, severity: str, case_file: Path, tmp_path: Path
+) -> None:
+    """An imaginary yaw, the only moment of the table, of this part of the largest force x 1/k."""
+    target = tmp_path / "with_drift.h5"
+    write_database(target, hydrodae.drift(case_file), LinearModel(case_file))
+    found = HydroDatabase.read(target)
+    stored = found.second_order["mean"]
+    values = stored.values.copy()
+    lever = 9.81 / stored.omega.max() ** 2
+    values[..., 2] = 1j * part * np.abs(values[..., :2]).max() * lever
+    changed = found.with_second_order({"mean": replace(stored, values=values)})
+    assert severity in {finding.severity for finding in drift_findings(changed)}
+    assert ("error" in {f.severity for f in drift_findings(changed)}) == (severity == "error")
+
+
 def test_the_digest_is_of_what_moves(case_file: Path) -> None:
     case = Case.read(case_file)
     own = scene_digest(case)

@@ -78,7 +78,10 @@ PairTable::PairTable(const hydro::Database& db, const hydro::SecondOrderTable& t
           pair_(p, q) = static_cast<int>(h);
           crossed_ = crossed_ || !alike(own[p], own[q]);
         }
-  const double force = largest(0), moment = std::max(largest(3), force * shortest_length());
+  // A moment is no less than that of the largest force at 1/k of the shortest wave (deep water):
+  // the yaw of a body of revolution is rounding alone.
+  const double fastest = table.omega[table.omega.size() - 1], force = largest(0),
+               moment = std::max(largest(3), force * db.gravity / (fastest * fastest));
   for (int c = 0; c < 6; ++c)
     if (loads(c))
       check_orders(c, c < 3 ? force : moment);
@@ -93,11 +96,6 @@ double PairTable::largest(int c) const {
           static_cast<Index>(k % table_.coordinates.size()) == column_[static_cast<std::size_t>(c)])
         out = std::max(out, std::abs(table_.values[k]));
   return out;
-}
-
-/// 1/k of the shortest wave [m]: the lever of a force whose moment is not yet noise.
-double PairTable::shortest_length() const {
-  return 1.0 / sea::wavenumber(table_.omega[table_.omega.size() - 1], db_.water_depth, db_.gravity);
 }
 
 /// Two waves load alike in either order: T_ji = conj T_ij of differences, T_ij of sums; the load of

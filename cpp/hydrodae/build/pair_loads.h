@@ -36,7 +36,6 @@ public:
 
 private:
   double largest(int c) const;
-  double shortest_length() const;
   void check_orders(int c, double largest) const;
   /// T as stored, and from the same two waves in the other order; NaN where not computed.
   std::array<std::complex<double>, 2> both_orders(Index i, Index j, Index p, Index q,

@@ -23,6 +23,8 @@ from hydrodae.hdb.database import coordinates as co
 from hydrodae.hdb.labels import bodies_of, read_labels, six_of_each
 from hydrodae.support.arrays import Array, Complex
 
+GRAVITY = 9.81  #: [m/s2], for the scale of moments alone
+
 
 @dataclass(frozen=True)
 class Kind:
@@ -141,9 +143,9 @@ class SecondOrderTable:
         return self.values[i, i], self.computed[i, i]
 
     def scale(self) -> Array:
-        """Return the largest load (n,) of the unit of each coordinate: forces, or moments."""
+        """Return the largest load (n,) of the unit of each coordinate: `largest_of_unit`."""
         turns = np.array([label.is_rotation for label in read_labels(self.coordinates)])
-        return largest_of_unit(self.values.reshape(-1, len(turns)), turns)
+        return largest_of_unit(self.values.reshape(-1, len(turns)), turns, self.omega)
 
     def selected(self, labels: Sequence[str]) -> SecondOrderTable | None:
         """Return the table with those of the labels that it has; None if it has none of them."""
@@ -207,10 +209,15 @@ class SecondOrderTable:
         )
 
 
-def largest_of_unit(values: Complex, turns: NDArray[np.bool_]) -> Array:
-    """Return for each column of (m, n) the largest modulus among the columns of its unit."""
+def largest_of_unit(values: Complex, turns: NDArray[np.bool_], omega: Array) -> Array:
+    """Return for each column of (m, n) the largest modulus among the columns of its unit.
+
+    A moment is no less than that of the largest force at 1/k of the shortest wave (deep water): the
+    yaw of a body of revolution is rounding alone. `omega` [rad/s] are the frequencies of the loads.
+    """
     own = np.abs(values).max(axis=0, initial=0.0)
     forces, moments = own[~turns].max(initial=0.0), own[turns].max(initial=0.0)
+    moments = max(moments, forces * GRAVITY / float(np.max(omega)) ** 2)
     return np.asarray(np.where(turns, moments, forces), dtype=float)
 
 

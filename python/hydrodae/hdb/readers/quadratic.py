@@ -118,7 +118,7 @@ def tabulate(entries: Entries, setting: Setting) -> SecondOrderTable | None:
     table = np.zeros(shape, dtype=complex)
     there, first = np.unique(places, return_index=True)
     table.flat[there] = values[first]
-    scale = largest_of_unit(table.reshape(-1, len(coordinates)), turns)
+    scale = largest_of_unit(table.reshape(-1, len(coordinates)), turns, omega)
     _refuse_differences(entries, values - table.flat[places], places, flat(-1), scale[column])
     filled = np.zeros(shape, dtype=bool)
     filled.flat[there] = True
