@@ -4,30 +4,31 @@
 
 The starter `owc` in its sea, without the second run that estimates the error. The damper takes
 what the Wells turbine takes at small pressures without the spring of the air. Times are the least
-of some runs. Ratios asked for: 1.15 with the Wells turbine, 1.5 with an orifice that is laminar up
+of some runs. Aims: 1.15 with the Wells turbine, 1.5 with an orifice that is laminar up
 to 1 Pa.
 """
 
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 import tempfile
-import time
 import tomllib
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 import hydrodae
 from hydrodae.case.case import to_toml
 from hydrodae.commands.cli import guarded
 from hydrodae.starters import create
 
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+
+from tests.benchmark.ratios import print_ratios  # noqa: E402
+
 DENSITY = 1.225
-ASKED = {"wells": 1.15, "orifice": 1.5}
+AIMS = {"wells": 1.15, "orifice": 1.5}
 
 
 def cases(folder: Path, end: float) -> dict[str, hydrodae.Case]:
@@ -67,35 +68,14 @@ def written(tables: dict[str, Any]) -> str:
     return "\n".join(lines)
 
 
-def measure(case: hydrodae.Case, path: Path) -> tuple[float, float, int]:
-    """Time inside the method and of the whole run [s], and steps."""
-    before = time.process_time()
-    results = hydrodae.run(case, path)
-    whole = time.process_time() - before
-    return float(results.statistics["solver_time"]), whole, int(results.statistics["steps"])
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--end", type=float, default=1800.0, help="of the runs, s")
     parser.add_argument("--repeats", type=int, default=5)
     given = parser.parse_args()
-    print(f"load of the machine (1 min): {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
     with tempfile.TemporaryDirectory() as name:
-        made = cases(Path(name), given.end)
-        found = {key: (np.inf, np.inf, 0) for key in made}
-        for _ in range(given.repeats):  # in turn, so that other work meets all alike
-            for key, case in made.items():
-                one = measure(case, Path(name) / "results.h5")
-                least = [min(pair) for pair in zip(one[:2], found[key][:2], strict=True)]
-                found[key] = (least[0], least[1], one[2])
-    inside, whole, _ = found["damper"]
-    for key, (own, all_of, steps) in found.items():
-        asked = f"  asked {ASKED[key]:g}" if key in ASKED else ""
-        print(
-            f"{key:8} method {own:.3f} s ({own / inside:.2f}), whole run {all_of:.3f} s "
-            f"({all_of / whole:.2f}), {steps} steps{asked}"
-        )
+        folder = Path(name)
+        print_ratios(cases(folder, given.end), folder / "results.h5", given.repeats, AIMS)
 
 
 if __name__ == "__main__":

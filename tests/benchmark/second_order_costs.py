@@ -5,17 +5,15 @@
 A moored cylinder with a fitted memory moves in surge, heave and pitch in 200 components, with the
 tables of the OC4 semisubmersible (reference data) scaled to its size. Times are the least of some
 runs, without the second run that estimates the error: inside the method, and of the whole run with
-preparation, samples and file. Ratios asked for, in runs of 3 h: 1.2 with differences, 1.3 with sums
+preparation, samples and file. Aims, in runs of 3 h: 1.2 with differences, 1.3 with sums
 as well. The preparation does not depend on the length, so that ratios of short runs are larger.
 """
 
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 import tempfile
-import time
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -33,6 +31,7 @@ sys.path.insert(0, str(ROOT))
 
 from tests import reference_data  # noqa: E402
 from tests.benchmark.hexagonal_arrays import with_bank  # noqa: E402
+from tests.benchmark.ratios import print_ratios  # noqa: E402
 
 RADIUS, DRAFT, CENTER, DEPTH, DENSITY = 5.0, 5.0, -2.5, 60.0, 1025.0
 #: Frequencies of the memory's resonators [rad/s], about as many states as a fit has.
@@ -47,7 +46,7 @@ LOADS: dict[str, list[Load]] = {
     "difference": ["difference"],
     "difference, sum": ["difference", "sum"],
 }
-ASKED = {"difference": 1.2, "difference, sum": 1.3}
+AIMS = {"difference": 1.2, "difference, sum": 1.3}
 
 
 def tables() -> dict[str, SecondOrderTable]:
@@ -105,38 +104,17 @@ def case(folder: Path, loads: Sequence[Load], end: float) -> hydrodae.Case:
     return made.case()
 
 
-def measure(scene: hydrodae.Case, path: Path) -> tuple[float, float, int]:
-    """Time inside the method and of the whole run [s], and steps."""
-    before = time.process_time()
-    results = hydrodae.run(scene, path)
-    whole = time.process_time() - before
-    return float(results.statistics["solver_time"]), whole, int(results.statistics["steps"])
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--end", type=float, default=1800.0, help="of the runs, s")
     parser.add_argument("--repeats", type=int, default=5)
     given = parser.parse_args()
-    print(f"load of the machine (1 min): {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
+    print(f"{given.end:g} s, 200 components")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         write_database(folder / "hydro.h5")
         scenes = {key: case(folder, loads, given.end) for key, loads in LOADS.items()}
-        found = {key: (np.inf, np.inf, 0) for key in scenes}
-        for _ in range(given.repeats):  # in turn, so that other work meets all alike
-            for key, scene in scenes.items():
-                one = measure(scene, folder / "results.h5")
-                least = [min(pair) for pair in zip(one[:2], found[key][:2], strict=True)]
-                found[key] = (least[0], least[1], one[2])
-    inside, whole, _ = found["linear"]
-    print(f"{given.end:g} s, 200 components; ratios to the linear run")
-    for key, (own, all_of, steps) in found.items():
-        asked = f"  asked {ASKED[key]:g} for 3 h" if key in ASKED else ""
-        print(
-            f"{key:16} method {own:.3f} s ({own / inside:.2f}), whole run {all_of:.3f} s "
-            f"({all_of / whole:.2f}), {steps} steps{asked}"
-        )
+        print_ratios(scenes, folder / "results.h5", given.repeats, AIMS)
 
 
 if __name__ == "__main__":

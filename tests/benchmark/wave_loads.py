@@ -5,7 +5,7 @@
 RM3 in heave with the drag of its discs (cases/rm3/sea.toml, the database from reference data) for
 600 s, and a cylinder with a mesh (yaw_axes.py) in a long-crested and in a spreading sea of 200
 components. Times are processor seconds of whole runs, the least of some runs in turn, without the
-second run that estimates the error. Ratios asked for: drag 1.3, spreading sea on the mesh 15. What
+second run that estimates the error. Aims: drag 1.3, spreading sea on the mesh 15. What
 one evaluation of a mesh costs is printed by hydrodae-hull-loads.
 """
 
@@ -13,10 +13,8 @@ from __future__ import annotations
 
 import argparse
 import itertools
-import os
 import sys
 import tempfile
-import time
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +28,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
 from tests import reference_data  # noqa: E402
+from tests.benchmark.ratios import print_ratios  # noqa: E402
 from tests.benchmark.yaw_axes import CENTER, DRAFT, MASS, RADIUS, SEAS, water  # noqa: E402
 
 AIMS = {"RM3 with drag": 1.3, "mesh, spreading sea": 15.0}
@@ -97,33 +96,15 @@ def cylinder(folder: Path, sea: str, meshed: bool, end: float) -> hydrodae.Case:
     return made.case()
 
 
-def measure(cases: dict[str, hydrodae.Case], path: Path, repeats: int) -> None:
-    """Prints the least time of each case and its ratio to the first one."""
-    least: dict[str, float] = dict.fromkeys(cases, np.inf)
-    steps = dict.fromkeys(cases, 0)
-    for _ in range(repeats):
-        for name, case in cases.items():
-            before = time.process_time()
-            results = hydrodae.run(case, path)
-            least[name] = min(least[name], time.process_time() - before)
-            steps[name] = int(results.statistics["steps"])
-    first = next(iter(least.values()))
-    for name, seconds in least.items():
-        aim = f" (aim: {AIMS[name]})" if name in AIMS else ""
-        ratio = f"{seconds / first:.2f} times{aim}"
-        print(f"{name}: {1e3 * seconds:.1f} ms, {steps[name]} steps, {ratio}", flush=True)
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--end", type=float, default=600.0, help="of RM3, s")
     parser.add_argument("--mesh-end", type=float, default=60.0, help="of the cylinder, s")
     parser.add_argument("--repeats", type=int, default=3)
     given = parser.parse_args()
-    print(f"load of the machine (1 min): {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        measure(rm3(folder, given.end), folder / "results.h5", given.repeats)
+        print_ratios(rm3(folder, given.end), folder / "results.h5", given.repeats, AIMS)
         water(1, "all round").write(folder / "cylinder.h5")
         write_mesh(folder / "cylinder.stl")
         for sea in ("irregular sea", "spreading sea"):
@@ -133,7 +114,7 @@ def main() -> None:
                 )
                 for meshed in (False, True)
             }
-            measure(cases, folder / "results.h5", given.repeats)
+            print_ratios(cases, folder / "results.h5", given.repeats, AIMS)
 
 
 if __name__ == "__main__":

@@ -20,7 +20,7 @@ from hydrodae.report.scene import parts, rungs
 from hydrodae.study.sweep import text
 from hydrodae.study.sweep.measures import ENDS
 from hydrodae.study.sweep.table import half_percent, with_unit
-from hydrodae.support.units import prefixed
+from hydrodae.support.units import percent_text, prefixed
 from hydrodae.support.version import version
 
 #: What is drawn first, if it is there.
@@ -109,7 +109,7 @@ def matrix(values: xr.DataArray, name: str, half: xr.DataArray | None = None) ->
     middle = 0.4 * np.nanmin(numbers * factor) + 0.6 * np.nanmax(numbers * factor)
     percent = np.full(numbers.shape, np.nan) if half is None else half.to_numpy()
     for (i, j), value in np.ndenumerate(numbers * factor):
-        near = f"\n\u00b1{percent[i, j]:.2g} %" if np.isfinite(percent[i, j]) else ""
+        near = f"\n\u00b1{percent_text(percent[i, j])}" if np.isfinite(percent[i, j]) else ""
         color = "black" if value > middle else "white"
         axes.text(j, i, f"{value:.3g}{near}", ha="center", va="center", fontsize=8, color=color)
     axes.set_xticks(range(numbers.shape[1]), [_short(v) for v in values[across].to_numpy()])

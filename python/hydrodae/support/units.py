@@ -40,3 +40,14 @@ def power_text(power: float, digits: int = 4) -> str:
     """
     factor, unit = prefixed(power, "W")
     return f"{factor * power:.{digits}g} {unit}"
+
+
+def percent_text(percent: float) -> str:
+    """A share [%] with its unit: two digits, and no power of ten.
+
+    Examples
+    --------
+    >>> percent_text(120.4), percent_text(0.0123)
+    ('120 %', '0.012 %')
+    """
+    return f"{percent:.2g} %" if percent < 99.5 else f"{percent:.0f} %"

@@ -9,7 +9,7 @@ import numpy as np
 from hydrodae.study.sweep.means import lines_of
 from hydrodae.study.sweep.plan import RUNG
 from hydrodae.study.sweep.table import half_percent, interval_of, with_unit
-from hydrodae.support.units import prefixed
+from hydrodae.support.units import percent_text, prefixed
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -55,7 +55,7 @@ def _worth(results: xr.Dataset, name: str) -> str:
     told, half = [], half_percent(results, name)
     if half is not None and half.count() > 0:
         whose = "interval" if name.endswith("_mean") else "interval of one run"
-        told.append(f"95 % {whose} at most {float(half.max()):.2g} % to each side")
+        told.append(f"95 % {whose} at most {percent_text(float(half.max()))} to each side")
     if half is not None and not name.endswith("_mean"):
         short = int(results[name].count() - half.count())
         told += [f"{short} runs too short for an interval"] if short else []
@@ -108,4 +108,4 @@ def _value(value: Any) -> str:
 
 
 def _cell(power: float, percent: float) -> str:
-    return f"{power:.4g}" + f" +-{percent:.2g} %" * bool(np.isfinite(percent))
+    return f"{power:.4g}" + (f" +-{percent_text(percent)}" if np.isfinite(percent) else "")
