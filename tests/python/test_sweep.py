@@ -356,7 +356,7 @@ def test_rungs_of_one_study_stand_side_by_side(tmp_path: Path) -> None:
     half = found["mean_power_absorbed_interval"] / found["mean_power_absorbed_mean"]
     widest = 100.0 * float(half.sel(rung="time").max())
     unit = prefixed(float(power.sel(rung="time").max()), "W")[1]
-    assert f"time, {unit} (95 % interval at most {widest:.2g} % to each side; " in text(found)
+    assert f"time, {unit} (95 % interval at most {widest:.0f} % to each side; " in text(found)
 
 
 def test_capture_width_is_power_over_the_flux_of_the_waves(tmp_path: Path) -> None:

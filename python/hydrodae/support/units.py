@@ -43,7 +43,7 @@ def power_text(power: float, digits: int = 4) -> str:
 
 
 def percent_text(percent: float) -> str:
-    """A share [%] with its unit: two digits, and no power of ten.
+    """A share [%] with its unit: two digits, or a whole number.
 
     Examples
     --------
