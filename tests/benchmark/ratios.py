@@ -32,6 +32,7 @@ def print_ratios(
             steps[name] = int(results.statistics["steps"])
     first = next(iter(least.values()))
     for name, own in least.items():
-        inside, whole = (f"{s:.3f} s ({s / one:.2f})" for s, one in zip(own, first, strict=True))
+        texts = [f"{s:.3f} s ({s / one:.2f})" for s, one in zip(own, first, strict=True)]
         aim = f", aim {aims[name]:g}" if name in aims else ""
-        print(f"{name:24} method {inside}, whole run {whole}{aim}, {steps[name]} steps", flush=True)
+        line = f"{name:24} method {texts[0]}, whole run {texts[1]}{aim}, {steps[name]} steps"
+        print(line, flush=True)

@@ -109,7 +109,7 @@ def matrix(values: xr.DataArray, name: str, half: xr.DataArray | None = None) ->
     middle = 0.4 * np.nanmin(numbers * factor) + 0.6 * np.nanmax(numbers * factor)
     percent = np.full(numbers.shape, np.nan) if half is None else half.to_numpy()
     for (i, j), value in np.ndenumerate(numbers * factor):
-        near = f"\n\u00b1{percent_text(percent[i, j])}" if np.isfinite(percent[i, j]) else ""
+        near = f"\n\u00b1{percent_text(float(percent[i, j]))}" if np.isfinite(percent[i, j]) else ""
         color = "black" if value > middle else "white"
         axes.text(j, i, f"{value:.3g}{near}", ha="center", va="center", fontsize=8, color=color)
     axes.set_xticks(range(numbers.shape[1]), [_short(v) for v in values[across].to_numpy()])
