@@ -83,8 +83,8 @@ std::vector<std::string> valid_keys(const Target& target) {
     valid.emplace_back(field.key);
   if (target.typed)
     valid.insert(valid.begin() + 1, "type"); // behind the name
-  for (const auto& [name, inner] : target.nested)
-    valid.push_back(name);
+  for (const Target& inner : target.nested)
+    valid.push_back(inner.name);
   return valid;
 }
 
@@ -99,9 +99,9 @@ void read_target(const Table& table, Places& places, const Target& target) {
     else if (field.required)
       missing_key(table, field.key, field.unit, field.doc);
   }
-  for (const auto& [name, inner] : target.nested)
-    if (const toml::node* node = table.node.get(name))
-      read_target(nested_table(table, *node, name, places), places, inner);
+  for (const Target& inner : target.nested)
+    if (const toml::node* node = table.node.get(inner.name))
+      read_target(nested_table(table, *node, inner.name, places), places, inner);
 }
 
 } // namespace hydrodae::io

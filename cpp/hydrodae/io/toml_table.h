@@ -51,16 +51,17 @@ Table nested_table(const Table& parent, const toml::node& node, const std::strin
 
 /// Struct that a table is read into: its fields, and the tables inside it.
 struct Target {
+  std::string name; ///< key of a table inside another
   void* value = nullptr;
   std::vector<AnyField> fields;
   bool typed = false; ///< whether the key `type` stands behind the name
-  std::vector<std::pair<std::string, Target>> nested;
+  std::vector<Target> nested;
 };
 
-template <class T> Target target_of(T& value) {
-  Target target{&value, T::fields(), NamedType<T>, {}};
-  for_each_nested<T>([&](const char* name, auto member) {
-    target.nested.emplace_back(name, target_of(value.*member));
+template <class T> Target target_of(T& value, const char* name = "") {
+  Target target{name, &value, T::fields(), NamedType<T>, {}};
+  for_each_nested<T>([&](const char* inner, auto member) {
+    target.nested.push_back(target_of(value.*member, inner));
   });
   return target;
 }

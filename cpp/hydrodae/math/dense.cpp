@@ -4,11 +4,24 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <cmath>
+#include <complex>
 
 namespace hydrodae {
 
 MatrixX solve_square(const MatrixX& A, const MatrixX& B) {
   return Eigen::PartialPivLU<MatrixX>(A).solve(B);
+}
+
+Eigen::MatrixXcd solve_square(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B) {
+  return Eigen::PartialPivLU<Eigen::MatrixXcd>(A).solve(B);
+}
+
+Eigen::MatrixXcd product(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B) { return A * B; }
+
+Eigen::MatrixXcd congruence(const MatrixX& T, const Eigen::MatrixXcd& A) {
+  const Eigen::MatrixXcd wide = T.cast<std::complex<double>>();
+  const Eigen::MatrixXcd right = product(A, wide);
+  return product(wide.transpose(), right);
 }
 
 MatrixX least_squares(const MatrixX& A, const MatrixX& B) {
@@ -52,6 +65,10 @@ std::pair<double, Eigen::VectorXcd> lowest_eigenpair(const Eigen::MatrixXcd& A) 
 
 VectorX symmetric_eigenvalues(const MatrixX& A) {
   return Eigen::SelfAdjointEigenSolver<MatrixX>(A, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+VectorX real_parts_of_eigenvalues(const MatrixX& A) {
+  return Eigen::EigenSolver<MatrixX>(A, false).eigenvalues().real();
 }
 
 } // namespace hydrodae

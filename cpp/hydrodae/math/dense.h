@@ -14,6 +14,12 @@ inline constexpr double by_rounding = -1.0;
 
 /// Solution X of A X = B, by an LU decomposition with partial pivoting. A is square and regular.
 MatrixX solve_square(const MatrixX& A, const MatrixX& B);
+Eigen::MatrixXcd solve_square(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B);
+
+Eigen::MatrixXcd product(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B);
+
+/// T' A T with a real T.
+Eigen::MatrixXcd congruence(const MatrixX& T, const Eigen::MatrixXcd& A);
 
 /// Minimiser X of |A X - B|, one of them if A lacks rank (column-pivoted QR).
 MatrixX least_squares(const MatrixX& A, const MatrixX& B);
@@ -34,6 +40,9 @@ PivotedColumns pivoted_columns(const MatrixX& A);
 
 /// Eigenvalues of a symmetric matrix, ascending.
 VectorX symmetric_eigenvalues(const MatrixX& A);
+
+/// Real parts of the eigenvalues of a square matrix, in no order.
+VectorX real_parts_of_eigenvalues(const MatrixX& A);
 
 /// The smallest eigenvalue of a Hermitian matrix, of which only the lower triangle is read, and its
 /// eigenvector of length one.

@@ -61,13 +61,12 @@ bool take_statics(System& s) {
 /// Note on a direction, allowed by the constraints, in which forces drive the scene away; ""
 /// for a stable pose.
 std::string instability(const LinearMatrices& m, const VectorX& scale) {
-  const MatrixX G = m.constraints * scale.asDiagonal();
-  const MatrixX free = null_space(G);
+  const MatrixX free = scale.asDiagonal() * null_space(m.constraints * scale.asDiagonal());
   if (free.cols() == 0)
     return "";
-  const MatrixX K = free.transpose() * scale.asDiagonal() * m.stiffness * scale.asDiagonal() * free;
+  const MatrixX K = free.transpose() * m.stiffness * free;
   // The hydrostatics of modes have no potential of their own: K need not be symmetric.
-  const VectorX values = Eigen::EigenSolver<MatrixX>(K, false).eigenvalues().real();
+  const VectorX values = real_parts_of_eigenvalues(K);
   return values.minCoeff() < -1e-6 * values.cwiseAbs().maxCoeff()
              ? "the equilibrium is unstable: the smallest displacement moves the scene away from it"
              : "";

@@ -10,6 +10,7 @@
 #include "hydrodae/build/parts.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/hydro/frequency.h"
+#include "hydrodae/math/dense.h"
 #include "hydrodae/model/motion.h"
 #include "hydrodae/model/waves.h"
 #include "hydrodae/statics/equilibrium.h"
@@ -49,15 +50,17 @@ struct Coordinates {
 };
 
 /// Transfer function H(iw) of a fit (m, m): f_rad = -Re(C z), so that H is the mean of C (iw -
-/// p)^-1 B and of the same with conjugate C, p and B.
+/// p)^-1 B and of the conjugate of C (-iw - p)^-1 B.
 Eigen::MatrixXcd transfer(const hydro::MemoryFit& fit, const Coordinates& of, double omega) {
   const Eigen::MatrixXcd B = fit.input_matrix(Eigen::all, of.input),
                          C = fit.output_matrix(of.output, Eigen::all);
-  const Eigen::ArrayXcd p = fit.poles.array(),
-                        iw = Eigen::ArrayXcd::Constant(p.size(), {0.0, omega});
-  return 0.5 *
-         (C * (iw - p).inverse().matrix().asDiagonal() * B +
-          C.conjugate() * (iw - p.conjugate()).inverse().matrix().asDiagonal() * B.conjugate());
+  const auto at = [&](double w) {
+    Eigen::MatrixXcd states = B;
+    for (Index k = 0; k < states.rows(); ++k)
+      states.row(k) /= Complex(0.0, w) - fit.poles[k];
+    return product(C, states);
+  };
+  return 0.5 * (at(omega) + at(-omega).conjugate());
 }
 
 /// Equations linearised at the start, at rest, in the motions that the constraints allow.
@@ -90,11 +93,12 @@ struct Linear {
     Eigen::MatrixXcd Z = iw * iw * m.mass + iw * m.damping + m.stiffness;
     if (const Index n = m.state_by_state.rows()) {
       const Eigen::MatrixXcd states = iw * MatrixX::Identity(n, n) - m.state_by_state;
-      Z -= m.load_by_state *
-           states.partialPivLu().solve(Eigen::MatrixXcd(m.state_by_xi + iw * m.state_by_rate));
+      Z -= product(m.load_by_state.cast<Complex>(),
+                   solve_square(states, m.state_by_xi + iw * m.state_by_rate));
     }
-    const Eigen::MatrixXcd own = free.transpose() * Z * free + iw * (map.transpose() * H * map);
-    return map * own.partialPivLu().solve(Eigen::VectorXcd(map.transpose() * force));
+    const Eigen::MatrixXcd wide = map.cast<Complex>();
+    const Eigen::MatrixXcd own = congruence(free, Z) + iw * congruence(map, H);
+    return product(wide, solve_square(own, product(wide.transpose(), force)));
   }
 };
 

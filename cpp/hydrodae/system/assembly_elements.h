@@ -198,7 +198,8 @@ void Assembly<Sink>::sparse_law_of_points(const PortData& port, const double* lo
                            : RowVector6(RowVector6::Zero())));
     }
   };
-  for (const auto& [row, column] : laws.sparsity) {
+  for (const auto& place : laws.sparsity) {
+    const int row = place[0], column = place[1];
     const double value = *values++;
     if (row >= w) {
       if (column >= 2 * w)
