@@ -114,7 +114,8 @@ TEST_CASE("the Jacobian is exact in all blocks") {
     REQUIRE(part.nonzeros() <= pattern.nonzeros());
     system::JacobianParts small(part);
     system::jacobian(s, part, ws, instant, y.data(), yp.data(), small);
-    // The mass matrix is kept where the poses are those of the calls before, and made anew elsewhere.
+    // The mass matrix is kept where the poses are those of the calls before, and made anew
+    // elsewhere.
     const std::vector<double> first = small.by_yp;
     for (int again = 0; again < 2; ++again) {
       system::jacobian(s, part, ws, instant, y.data(), yp.data(), small);

@@ -28,7 +28,8 @@ TEST_CASE("factors of the masses follow the values, kept or not") {
     VectorX b(s.n_u + s.n_lambda), x(b.size()), wanted(b.size());
     for (Index i = 0; i < b.size(); ++i)
       b[i] = i < s.n_u ? std::sin(1.0 + static_cast<double>(i)) : 0.0;
-    for (const VectorX* y : {&here, &here, &there, &there, &here}) {
+    for (const VectorX* y :
+         std::initializer_list<const VectorX*>{&here, &here, &there, &there, &here}) {
       system::jacobian(s, part, ws, 0.0, y->data(), yp.data(), parts);
       linalg::SaddleMatrix fresh(s, part);
       for (linalg::SaddleMatrix* matrix : {&kept, &fresh}) {
