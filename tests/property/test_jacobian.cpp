@@ -114,7 +114,7 @@ TEST_CASE("the Jacobian is exact in all blocks") {
     REQUIRE(part.nonzeros() <= pattern.nonzeros());
     system::JacobianParts small(part);
     system::jacobian(s, part, ws, instant, y.data(), yp.data(), small);
-    // The mass matrix is kept where the poses are those of the calls before, and made anew
+    // The mass matrix is kept where the poses are those of the calls before, and made again
     // elsewhere.
     const std::vector<double> first = small.by_yp;
     for (int again = 0; again < 2; ++again) {
