@@ -114,6 +114,19 @@ TEST_CASE("the Jacobian is exact in all blocks") {
     REQUIRE(part.nonzeros() <= pattern.nonzeros());
     system::JacobianParts small(part);
     system::jacobian(s, part, ws, instant, y.data(), yp.data(), small);
+    // The mass matrix is kept where the poses are those of the calls before, and made again
+    // elsewhere.
+    const std::vector<double> first = small.by_yp;
+    for (int again = 0; again < 2; ++again) {
+      system::jacobian(s, part, ws, instant, y.data(), yp.data(), small);
+      REQUIRE(small.by_yp == first);
+    }
+    const VectorX moved = test::random_state(s, random);
+    system::JacobianParts fresh(part);
+    system::jacobian(s, part, ws, instant, moved.data(), yp.data(), fresh);
+    system::jacobian(s, part, ws, instant, moved.data(), yp.data(), small);
+    REQUIRE(small.by_yp == fresh.by_yp);
+    system::jacobian(s, part, ws, instant, y.data(), yp.data(), small);
     const MatrixX small_y = test::dense(part, small.by_y),
                   small_yp = test::dense(part, small.by_yp);
     const auto difference = [&](const MatrixX& ours, const MatrixX& all, Index row, Index column,

@@ -100,8 +100,15 @@ void BlockFactor::find_places(const std::vector<Index>& column_start,
       if (row[k] >= n_u_) {
         const auto at = std::lower_bound(b.local.begin(), b.local.end(), of_row);
         b.gradient.push_back({k, own * b.m + (at - b.local.begin())});
-      } else if (of_row <= own) { // upper triangle only
-        b.mass.push_back({k, of_row * b.n + own});
+      } else if (of_row >= own) { // lower triangle by columns: the upper one by rows
+        const Index offset = own * b.n + of_row;
+        if (Run* last = b.mass.empty() ? nullptr : &b.mass.back();
+            last && last->value + static_cast<std::size_t>(last->count) == k &&
+            last->offset + last->count == offset)
+          ++last->count;
+        else
+          b.mass.push_back({k, offset, 1});
+        ++b.n_mass;
       }
     }
   }
@@ -121,7 +128,7 @@ double BlockFactor::work() const {
 double BlockFactor::least_work() const {
   double sum = 0.0;
   for (const Bodies& b : bodies_)
-    if (const std::size_t n = b.unknown.size(); b.mass.size() == n * (n + 1) / 2)
+    if (const Index n = std::ssize(b.unknown); b.n_mass == n * (n + 1) / 2)
       sum += static_cast<double>(n * n * n) / 3.0; // unsymmetric block: by LU
   return sum;
 }
@@ -149,8 +156,8 @@ bool BlockFactor::factorise(const std::vector<double>& values, const VectorX& da
   for (Bodies& b : bodies_) {
     b.u.setZero();
     b.u.diagonal().tail(b.n - std::ssize(b.unknown)).setOnes();
-    for (const Place& p : b.mass)
-      b.u.data()[p.offset] = values[p.value];
+    for (const Run& run : b.mass)
+      std::copy_n(values.data() + run.value, run.count, b.u.data() + run.offset);
     if (!kernels_.factorise(b.n, b.u.data(), least_pivot))
       return false;
     if (b.local.empty())

@@ -42,10 +42,16 @@ private:
     std::size_t value = 0;
     Index offset = 0;
   };
+  struct Run { ///< entries with consecutive places
+    std::size_t value = 0;
+    Index offset = 0, count = 0;
+  };
   struct Bodies {               ///< set of bodies that act on each other's acceleration
     std::vector<Index> unknown; ///< (n,) unknowns in the matrix
     std::vector<Index> local;   ///< (m,) its rows, numbered in the set of rows
-    std::vector<Place> mass, gradient;
+    std::vector<Run> mass;      ///< triangle of M
+    Index n_mass = 0;           ///< number of its entries
+    std::vector<Place> gradient;
     std::size_t rows = 0; ///< number of its set of rows
     bool whole = false;   ///< true: it has all rows of the set, in order
     Index n = 0, m = 0;   ///< padded sizes

@@ -45,7 +45,7 @@ void SaddleMatrix::find_slots(const system::Pattern& p) {
   };
   struct Visit {
     Index column, row, from;
-    std::vector<Entry>* list;
+    std::vector<Run>* list;
   };
   std::vector<Visit> visits;
   for (Index column = 0; column < s_.n; ++column)
@@ -68,10 +68,18 @@ void SaddleMatrix::find_slots(const system::Pattern& p) {
     const auto slot = static_cast<Index>(row_.size());
     row_.push_back(v.row);
     ++start_[v.column + 1];
-    if (v.list)
-      v.list->push_back({v.from, slot});
-    else
+    if (!v.list)
       diagonal_.push_back(slot);
+    else if (v.list->empty() || v.list->back().from + v.list->back().count != v.from ||
+             v.list->back().slot + v.list->back().count != slot)
+      v.list->push_back({v.from, slot, 1});
+    else
+      ++v.list->back().count;
+    if (strips_.empty() || strips_.back().column != v.column ||
+        strips_.back().row + strips_.back().count != v.row)
+      strips_.push_back({v.column, v.row, slot, 1});
+    else
+      ++strips_.back().count;
     if (v.row == v.column && v.column < s_.n_u)
       mass_[v.column] = slot;
   }
@@ -152,7 +160,7 @@ SaddleMatrix::RowSums SaddleMatrix::sums_of(Index i) const {
 /// Factorises K with e > 0. D_i is the diagonal entry of the row with the heaviest body of its
 /// mechanism: the smallest eigenvalues of G M^-1 G^T have that size, however light other bodies
 /// are.
-bool SaddleMatrix::factorise() {
+bool SaddleMatrix::factorise_anew() {
   find_heaviest();
   for (Index i = s_.n_u; i < n_; ++i) {
     const RowSums& row = sums_[static_cast<std::size_t>(i - s_.n_u)];
@@ -177,6 +185,11 @@ bool SaddleMatrix::factorise() {
   return in_blocks_ || factorise_sparse();
 }
 
+bool SaddleMatrix::factorise() {
+  factored_ = factored_ || factorise_anew();
+  return factored_;
+}
+
 bool SaddleMatrix::factorise_sparse() {
   in_blocks_ = false;
   if (!lu_)
@@ -191,9 +204,13 @@ bool SaddleMatrix::factorise_sparse() {
 
 /// Subtracts a product: out -= K x with e = 0.
 void SaddleMatrix::subtract_product(const VectorX& x, VectorX& out) const {
-  for (Index c = 0; c < n_; ++c)
-    for (Index k = start_[c]; k < start_[c + 1]; ++k)
-      out[row_[k]] -= plain_[k] * x[c];
+  for (const Strip& strip : strips_) {
+    const double* const from = plain_.data() + strip.slot;
+    double* const to = out.data() + strip.row;
+    const double by = x[strip.column];
+    for (Index k = 0; k < strip.count; ++k)
+      to[k] -= from[k] * by;
+  }
 }
 
 /// Largest inertia force at the accelerations x.
@@ -225,6 +242,7 @@ void SaddleMatrix::solve(const VectorX& b, VectorX& x, double accuracy) {
       const bool renewed = sparse ? lu_->factorise() : factorise_sparse();
       old_pivots_ = old_pivots_ && !sparse;
       if (!renewed) {
+        factored_ = false;
         x.setConstant(NAN);
         return;
       }
@@ -241,12 +259,21 @@ void SaddleMatrix::solve(const VectorX& b, VectorX& x, double accuracy) {
 }
 
 void SaddleMatrix::fill(const system::JacobianParts& parts) {
-  for (const Entry& entry : of_mass_)
-    plain_[entry.slot] = parts.by_yp[entry.from];
-  for (const Entry& entry : of_rows_)
-    plain_[entry.slot] = parts.by_y[entry.from];
-  for (const Entry& entry : of_loads_)
-    plain_[entry.slot] = -parts.by_y[entry.from];
+  const auto take = [this](const std::vector<Run>& runs, const double* values, double sign) {
+    for (const Run& run : runs) {
+      double* const to = plain_.data() + run.slot;
+      const double* const from = values + run.from;
+      bool same = true;
+      for (Index k = 0; k < run.count; ++k) {
+        same &= to[k] == sign * from[k];
+        to[k] = sign * from[k];
+      }
+      factored_ &= same;
+    }
+  };
+  take(of_mass_, parts.by_yp.data(), 1.0);
+  take(of_rows_, parts.by_y.data(), 1.0);
+  take(of_loads_, parts.by_y.data(), -1.0);
 }
 
 /// Directions (n_u,) along which the block of M of a body is singular.

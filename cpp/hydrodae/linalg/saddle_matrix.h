@@ -29,7 +29,8 @@ public:
   /// Fills K with e = 0.
   void fill(const system::JacobianParts& parts);
 
-  /// Factorises; returns false if the matrix is singular.
+  /// Factorises, unless the factors belong to these values already; returns false if the matrix is
+  /// singular.
   bool factorise();
 
   /// Solves x = K^-1 b, with refinement against e = 0 until the residual is below `accuracy`. A
@@ -54,9 +55,13 @@ private:
     double shift = 0.0, turn = 0.0, yields = 0.0;
     std::size_t mechanism = 0;
   };
-  struct Entry {
-    Index from = 0; ///< index in the Jacobian
-    Index slot = 0; ///< index in the matrix
+  struct Run {       ///< entries of one column, in consecutive rows
+    Index from = 0;  ///< index of the first in the Jacobian
+    Index slot = 0;  ///< index of the first in the matrix
+    Index count = 0; ///< number of entries
+  };
+  struct Strip { ///< entries of one column of the matrix, in consecutive rows
+    Index column = 0, row = 0, slot = 0, count = 0;
   };
   void find_slots(const system::Pattern& pattern);
   void find_mechanisms();
@@ -64,6 +69,7 @@ private:
   void find_heaviest();
   RowSums sums_of(Index i) const;
   std::vector<VectorX> massless_directions() const;
+  bool factorise_anew();
   bool factorise_sparse();
   void solve_factored(double* v) { in_blocks_ ? blocks_->solve(v) : lu_->solve(v); }
   void subtract_product(const VectorX& x, VectorX& out) const;
@@ -72,9 +78,10 @@ private:
   const system::Regime& s_;
   Index n_ = 0; ///< n_u + n_lambda
   std::vector<Index> start_, row_;
-  std::vector<Entry> of_mass_;           ///< entries of M, from dF/dy'
-  std::vector<Entry> of_rows_;           ///< entries of G, from dF/dy
-  std::vector<Entry> of_loads_;          ///< entries of G^T, with the opposite sign in dF/dy
+  std::vector<Strip> strips_;            ///< all entries
+  std::vector<Run> of_mass_;             ///< entries of M, from dF/dy'
+  std::vector<Run> of_rows_;             ///< entries of G, from dF/dy
+  std::vector<Run> of_loads_;            ///< entries of G^T, with the opposite sign in dF/dy
   std::vector<Index> diagonal_;          ///< slots of eD
   std::vector<Index> mass_;              ///< slots of the diagonal of M
   std::vector<double> plain_;            ///< values with e = 0
@@ -87,6 +94,7 @@ private:
   std::unique_ptr<BlockFactor> blocks_;  ///< null: `lu_` is cheaper
   bool in_blocks_ = false;               ///< true: the last factors are those of `blocks_`
   bool chosen_ = false;                  ///< true: the choice between the two is made
+  bool factored_ = false;                ///< true: the factors belong to `plain_`
   /// True: the pivots are those of an earlier matrix, unchecked
   bool old_pivots_ = false;
   VectorX r_; ///< (n,) scratch

@@ -135,13 +135,15 @@ template <class Sink> struct Assembly {
       joints();
       couplers();
     } else {
+      masses();
       joint_accelerations();
       coupler_accelerations();
     }
     for_each_list(s, [&](const auto& list) { add(list); });
-    masses();
-    if constexpr (whole)
+    if constexpr (whole) {
+      masses();
       body_rows();
+    }
   }
 };
 
@@ -320,11 +322,15 @@ template <class Sink> void Assembly<Sink>::coupler_accelerations() {
 
 /// Mass matrix times accelerations, (M + D A_inf D^T) u'.
 template <class Sink> void Assembly<Sink>::masses() {
+  find_water_axes(s, ws);
+  if (sink.take_mass(ws))
+    return;
   mass(s, ws, [this](int i, int j, const Matrix6& block) {
     const BodyData& b = s.bodies[i];
     for (int k = 0; k < b.n_active; ++k)
       acceleration_columns(b.u0 + k, j, block.row(b.active[k]));
   });
+  sink.keep_mass(ws, s.hydro.added_mass.tables.empty() && !ws.state.past);
 }
 
 // Gyroscopic moments in the momentum rows; position rows q' - E(q) (u + G^T mu) - sigma p.

@@ -20,6 +20,8 @@ template <Part made> struct PatternSink {
     rates.emplace_back(column, row);
   }
   void row_rate(Index, double) {}
+  bool take_mass(const JacobianWorkspace&) { return false; }
+  void keep_mass(const JacobianWorkspace&, bool) {}
 };
 
 /// Sink that adds the values into the slots of the pattern.
@@ -27,9 +29,33 @@ template <Part made> struct ValueSink {
   static constexpr bool whole = made != Part::accelerations, memory = made == Part::whole;
   const Index* slot;
   JacobianParts& out;
+  const Index* first = slot;
   void by_y(Index, Index, double value) { out.by_y[*slot++] += value; }
   void by_yp(Index, Index, double value) { out.by_yp[*slot++] += value; }
   void row_rate(Index row, double value) { out.row_rates[row] += value; }
+  /// Takes the mass matrix that is kept, which accelerations need first; returns false if the axes
+  /// of the water have turned.
+  bool take_mass(const JacobianWorkspace& ws) {
+    const JacobianParts::Mass& kept = out.mass;
+    if (whole || kept.values.empty() || kept.axes != ws.hydro_axes)
+      return false;
+    std::copy(kept.values.begin(), kept.values.end(), out.by_yp.begin());
+    slot += kept.visits;
+    return true;
+  }
+  /// @param constant  the mass matrix changes with the axes of the water alone
+  void keep_mass(const JacobianWorkspace& ws, bool constant) {
+    JacobianParts::Mass& kept = out.mass;
+    if (whole || !constant)
+      return;
+    if (kept.axes == ws.hydro_axes) { // axes that turn at each call are not worth a copy
+      kept.values = out.by_yp;
+      kept.visits = slot - first;
+    } else {
+      kept.axes = ws.hydro_axes;
+      kept.values.clear();
+    }
+  }
 };
 
 /// Kinematics, past and tangent maps at (t, y, y'): d phi = 2 L(p)^T dp / |p|^2.

@@ -50,6 +50,13 @@ struct JacobianParts {
   VectorX memory_weights;
   /// (n_lambda,) rates (dG/dt) u of the velocity rows; with Part::accelerations
   VectorX row_rates;
+  /// Mass matrix without elements, which holds while the axes of the water are these; with
+  /// Part::accelerations
+  struct Mass {
+    std::vector<Matrix6> axes;
+    std::vector<double> values; ///< (nonzeros,); empty: none
+    Index visits = 0;           ///< number of entries that the assembly visits
+  } mass;
   explicit JacobianParts(const Pattern& pattern)
       : by_y(pattern.row.size()), by_yp(pattern.row.size()) {}
 };

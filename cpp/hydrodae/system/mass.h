@@ -62,30 +62,50 @@ inline HydroPair hydro_pair(const Regime& s, Workspace<double>& ws, std::size_t 
 
 /// Products a D^T and D a; `forces`: the force block of D is not the identity.
 inline void turn_columns(const Matrix6& D, bool forces, Matrix6& a) {
-  a.rightCols<3>() *= D.bottomRightCorner<3, 3>().transpose();
+  using Columns = Eigen::Matrix<double, 6, 3>;
+  const Matrix3 R = D.bottomRightCorner<3, 3>(), H = D.topLeftCorner<3, 3>();
+  a.rightCols<3>() = Columns(a.rightCols<3>().lazyProduct(R.transpose()));
   if (forces)
-    a.leftCols<3>() *= D.topLeftCorner<3, 3>().transpose();
+    a.leftCols<3>() = Columns(a.leftCols<3>().lazyProduct(H.transpose()));
 }
 inline void turn_rows(const Matrix6& D, bool forces, Matrix6& a) {
-  a.bottomRows<3>().applyOnTheLeft(D.bottomRightCorner<3, 3>());
+  using Rows = Eigen::Matrix<double, 3, 6>;
+  const Matrix3 R = D.bottomRightCorner<3, 3>(), H = D.topLeftCorner<3, 3>();
+  a.bottomRows<3>() = Rows(R.lazyProduct(a.bottomRows<3>()));
   if (forces)
-    a.topRows<3>().applyOnTheLeft(D.topLeftCorner<3, 3>());
+    a.topRows<3>() = Rows(H.lazyProduct(a.topRows<3>()));
 }
 
-/// Mass matrix M + D A D^T in the poses of the workspace, by pairs of bodies. visit(i, j,
+/// Axes D of all bodies in the water, in the poses of the workspace.
+inline void find_water_axes(const Regime& s, JacobianWorkspace& ws) {
+  const std::vector<HydroBody>& wet = s.hydro.bodies;
+  for (std::size_t i = 0; i < wet.size(); ++i)
+    ws.hydro_axes[i] = water::hydro_axes(s.hydro.axes, wet[i], ws.state.bodies[wet[i].body]);
+}
+
+/// Force on body i by U' of body j, along the hydrodynamic axes of both.
+inline Matrix6 water_inertia(const Regime& s, Workspace<double>& ws, std::size_t i, std::size_t j) {
+  const HydroBody &a = s.hydro.bodies[i], &b = s.hydro.bodies[j];
+  if (ws.past || (i == j && a.table >= 0))
+    return hydro_pair(s, ws, i, j).inertia;
+  const auto free = [](const HydroBody& hb) { return hb.n_moving() == 6; };
+  return free(a) && free(b)
+             ? Matrix6(s.hydro.added_mass.moving.block<6, 6>(a.moving[0], b.moving[0]))
+             : water::hydro_block(s.hydro.added_mass.moving, a, b);
+}
+
+/// Mass matrix M + D A D^T in the axes of `find_water_axes`, by pairs of bodies. visit(i, j,
 /// block): `block` is the load on body i per acceleration [v'; w'] of body j.
 template <class Visit> void mass(const Regime& s, JacobianWorkspace& ws, Visit&& visit) {
   const std::vector<HydroBody>& wet = s.hydro.bodies;
   const auto forces = [&](const HydroBody& hb) { // axes that turn forces, not only moments
     return s.hydro.axes != HydroAxes::mean || hb.turned;
   };
-  std::vector<Matrix6>& D = ws.hydro_axes;
-  for (std::size_t i = 0; i < wet.size(); ++i)
-    D[i] = water::hydro_axes(s.hydro.axes, wet[i], ws.state.bodies[wet[i].body]);
+  const std::vector<Matrix6>& D = ws.hydro_axes;
   for (std::size_t i = 0; i < wet.size(); ++i)
     for (const int partner : s.hydro.partners[i]) {
       const auto j = static_cast<std::size_t>(partner);
-      Matrix6 block = hydro_pair(s, ws.state, i, j).inertia;
+      Matrix6 block = water_inertia(s, ws.state, i, j);
       turn_columns(D[j], forces(wet[j]), block);
       turn_rows(D[i], forces(wet[i]), block);
       visit(wet[i].body, wet[j].body, block);
