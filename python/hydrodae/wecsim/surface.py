@@ -11,7 +11,6 @@ from hydrodae.hdb.hull.closed import closed_surface
 from hydrodae.hdb.hull.meshes import read_mesh
 from hydrodae.support.arrays import Array
 
-
 #: How the file begins that a repository keeps in place of a large one.
 _LFS_POINTER = b"version https://git-lfs"
 _NONE: Array = np.zeros((0, 3, 3))
