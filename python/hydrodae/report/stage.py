@@ -8,6 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
+from hydrodae.hdb.bem.cutting import cut_at_water
+from hydrodae.hdb.hull.closed import enclosed_volume
 from hydrodae.pictures.plot import COLORS, STYLE
 from hydrodae.support.arrays import Array
 from hydrodae.viewer.framing import VIEWS, Frame
@@ -15,6 +17,8 @@ from hydrodae.viewer.stage import Sea, Stage
 
 #: Panels of the sea along each side.
 CELLS = 40
+#: Order of drawing of what is below the sea, the sea, and what is above it.
+BELOW, SURFACE, ABOVE = 2.0, 2.5, 2.7
 #: Where the light comes from, world axes.
 LIGHT = np.array([-0.4, -0.6, 0.7]) / np.linalg.norm([-0.4, -0.6, 0.7])
 
@@ -34,18 +38,14 @@ def scene_picture(stage: Stage, frame: Frame, time: float) -> Figure:
     at = int(np.abs(stage.time - time).argmin())
     figure = Figure(figsize=(8.0, 4.6), layout="constrained")
     axes = figure.subplots()
-    triangles, colors = [], []
     for k, body in enumerate(stage.bodies):
-        parts = np.concatenate([body.surface, body.above])
         color = COLORS[k % len(COLORS)]
-        placed = body.places(parts.reshape(-1, 3))[at].reshape(-1, 3, 3)
-        triangles.append(placed)
-        colors.append(_shaded(placed, color))
         axes.plot([], [], "s", color=color, label=body.name)
-    if triangles:
-        _draw(axes, np.concatenate(triangles), np.concatenate(colors), 2.0)
+    _draw_bodies(axes, stage, at)
     for line in stage.lines:
-        axes.plot(*_seen(line.points[at])[:, :2].T, color="#333333", linewidth=1.0, zorder=3.0)
+        axes.plot(
+            *_seen(line.points[at])[:, :2].T, color="#333333", linewidth=1.0, zorder=SURFACE - 0.1
+        )
     if stage.sea is not None:
         _draw_sea(axes, stage.sea, frame, float(stage.time[at]))
     middle = _seen(frame.center[None])[0]
@@ -59,6 +59,29 @@ def scene_picture(stage: Stage, frame: Frame, time: float) -> Figure:
     return figure
 
 
+def _draw_bodies(axes: Axes, stage: Stage, at: int) -> None:
+    """Draw what is below the waves beneath their surface, the rest above it."""
+    parts: dict[float, list[tuple[Array, Array]]] = {BELOW: [], ABOVE: []}
+    for k, body in enumerate(stage.bodies):
+        hull = np.concatenate([body.surface, body.above])
+        placed = body.places(hull.reshape(-1, 3))[at].reshape(-1, 3, 3)
+        if enclosed_volume(placed) < 0.0:
+            placed = placed[:, ::-1]
+        panels = np.concatenate([placed, placed[:, 2:]], axis=1)
+        water = np.zeros(panels.shape)
+        if stage.sea is not None:
+            x, y = body.position[at][:2]
+            water[..., 2] = stage.sea.elevation(float(stage.time[at]), x, y)
+        for order, turn in ((BELOW, 1.0), (ABOVE, -1.0)):
+            sense = np.array([1.0, 1.0, turn])
+            cut = cut_at_water((panels - water) * sense) * sense + water[0, 0]
+            parts[order].append((cut, _shaded(cut, COLORS[k % len(COLORS)])))
+    for order, found in parts.items():
+        if found:
+            cells, colors = (np.concatenate(part) for part in zip(*found, strict=True))
+            _draw(axes, cells, colors, order)
+
+
 def _seen(points: Array) -> Array:
     """Points (n, 3) to the right, up and towards a camera in the oblique view."""
     azimuth, elevation = np.radians(VIEWS["oblique"])
@@ -70,7 +93,7 @@ def _seen(points: Array) -> Array:
 
 
 def _shaded(triangles: Array, color: str) -> Array:
-    """Colours (n, 4) of triangles by their slope to the light."""
+    """Colours (n, 4) of panels by their slope to the light."""
     normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     size = np.linalg.norm(normal, axis=1)
     light = 0.75 + 0.25 * (normal @ LIGHT) / np.where(size > 0.0, size, 1.0)
@@ -79,9 +102,10 @@ def _shaded(triangles: Array, color: str) -> Array:
 
 
 def _draw(axes: Axes, cells: Array, colors: Array, order: float) -> None:
-    """Draw polygons (n, k, 3), those behind first."""
+    """Draw polygons (n, k, 3), those that face away first, then those behind."""
     seen = _seen(cells.reshape(-1, 3)).reshape(cells.shape)
-    behind = np.argsort(seen[..., 2].mean(axis=1))
+    facing = np.cross(seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0])[:, 2] > 0.0
+    behind = np.lexsort((seen[..., 2].mean(axis=1), facing))
     patches = PolyCollection(
         list(seen[behind][..., :2]), facecolors=colors[behind], linewidths=0.2, zorder=order
     )
@@ -104,4 +128,4 @@ def _draw_sea(axes: Axes, sea: Sea, frame: Frame, time: float) -> None:
     colors[:, :3] = np.clip(0.9 + 3.0 * (colors[:, :3] / colors[:, :3].mean(axis=0) - 1.0), 0, 1)
     colors[:, :3] *= np.array(matplotlib.colors.to_rgb("#5aa9d6"))
     colors[:, 3] = 0.35
-    _draw(axes, cells, colors, 2.5)
+    _draw(axes, cells, colors, SURFACE)

@@ -47,7 +47,7 @@ class View:
         sea, time = self.stage.sea, self.stage.time
         if sea is None or not len(sea.waves):
             return float(time[0])
-        return float(time[min(np.searchsorted(time, sea.ramp), len(time) - 1)])
+        return float(time[min(int(np.searchsorted(time, sea.ramp)), len(time) - 1)])
 
     def html(self, time: float | None = None) -> str:
         """Return the page: one HTML file that needs neither network nor server.
