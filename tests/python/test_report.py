@@ -14,7 +14,8 @@ import hydrodae
 from hydrodae.case.contents import tables_of
 from hydrodae.commands import cli
 from hydrodae.report import report
-from hydrodae.report.scene import rungs
+from hydrodae.report.run import report_of_run
+from hydrodae.report.scene import parts, rungs
 from hydrodae.results import Results, ResultsError
 from hydrodae.starters import create
 
@@ -153,3 +154,12 @@ def test_forces_that_are_new_count_by_how_their_type_begins() -> None:
     told = dict(rungs({"force": [{"type": "pto_new"}, {"type": "friction_new"}]}))
     assert (told["power take-offs"], told["friction"]) == ("pto_new", "friction_new")
     assert told["moorings and ropes"] == "none"
+
+
+def test_the_scene_is_drawn_when_the_sea_has_grown(flap: Path) -> None:
+    """A mass by a word is one of the parts."""
+    text = report_of_run(Results.read(flap / "case.h5"))
+    ramp = tables_of((flap / "case.toml").read_text())["sea"]["ramp"]
+    assert f"The scene at t = {ramp:g} s" in text
+    body = {"name": "float", "mass": "equilibrium", "center_of_gravity": [0.0, 0.0, -1.0]}
+    assert next(parts({"body": [body]}))[3] == "mass equilibrium at 0, 0, -1 m"

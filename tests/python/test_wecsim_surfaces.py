@@ -63,3 +63,24 @@ def test_a_surface_that_is_not_closed_is_left_out(two_bodies: Path, tmp_path: Pa
     converted = convert(two_bodies, tmp_path / "case")
     assert "hull.stl: the surface is not closed: 3 edges lack a neighbour" in left_out(converted)
     assert not list((tmp_path / "case").glob("*.stl"))
+
+
+def test_geometry_files_are_drawn(two_bodies: Path, tmp_path: Path) -> None:
+    """They are about the centre of gravity there, open ones too; a body without water likewise."""
+    write_stl(box((4.0, 5.0, 4.0), 5.5)[:-1], two_bodies / "hull.stl")
+    (two_bodies / "base.stl").write_text("version https://git-lfs.github.com/spec/v1\n")
+    append(two_bodies, "body(1).geometryFile = 'hull.stl';\nbody(2).geometryFile = 'base.stl';\n")
+    converted = convert(two_bodies, tmp_path / "case")
+    assert left_out(converted) == ""
+    told = str([str(remark) for remark in converted.remarks.of("not needed")])
+    assert "body(2).geometryFile to draw it (base.stl is a pointer of Git LFS" in told
+    assert "body(1).geometryFile" not in told
+    stage = hydrodae.view(tmp_path / "case" / "case.toml").stage
+    drawn, other = stage.bodies
+    assert drawn.origin == "shapes/float.stl beside the case, 11 triangles"
+    assert "shapes/" not in other.origin
+    found = drawn.places(drawn.surface.reshape(-1, 3))[0] - drawn.position[0]
+    np.testing.assert_allclose(found.min(axis=0), [-4.0, -5.0, -2.5], atol=1e-5)
+    np.testing.assert_allclose(found.max(axis=0), [4.0, 5.0, 5.5], atol=1e-5)
+    asked = hydrodae.view(tmp_path / "case" / "case.toml", shapes={"float": "sphere:radius=1"})
+    assert asked.stage.bodies[0].origin == "drawn as asked: sphere:radius=1"

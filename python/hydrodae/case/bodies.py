@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 
@@ -19,3 +20,16 @@ def bodies_and_attachments(tables: Mapping[str, Any]) -> list[Mapping[str, Any]]
         for place in tables.get("attachment", [])
     ]
     return [*tables.get("body", []), *places]
+
+
+def shape_file(directory: Path, body: str) -> Path:
+    """Return the file from which a body is drawn where it is there: shapes/BODY.stl.
+
+    Parameters
+    ----------
+    directory : Path
+        Folder of the case file.
+    body : str
+        Its surface is in world axes, in the reference pose [m].
+    """
+    return directory / "shapes" / f"{body}.stl"

@@ -15,9 +15,11 @@ from hydrodae.pictures.panels import overview
 from hydrodae.pictures.plot import plot_overview
 from hydrodae.report import page
 from hydrodae.report.scene import parts, rungs, sketch
+from hydrodae.report.stage import scene_picture
 from hydrodae.results import Results
 from hydrodae.results.series import Statistics, statistics
 from hydrodae.support.version import version
+from hydrodae.viewer import view
 
 
 def report_of_run(results: Results) -> str:
@@ -38,10 +40,7 @@ def _sections(results: Results, tables: dict[str, object]) -> Iterator[str]:
     )
     yield page.section(
         "Scene",
-        page.picture(sketch(tables), "bodies and joints in the reference pose"),
-        page.paragraph(
-            "Reference pose from the side: centres of gravity, joints (squares), lines."
-        ),
+        *_scene(results, tables),
         page.table(["part", "name", "type", "where"], parts(tables)),
     )
     yield page.section("Models used", page.table(["effect", "model"], rungs(tables)))
@@ -53,6 +52,22 @@ def _sections(results: Results, tables: dict[str, object]) -> Iterator[str]:
     yield page.section("Solver", page.table([], _solver(results)))
     yield page.section("Versions and hashes", page.table([], _provenance(results)))
     yield page.section("Case file", page.folded("as it was run", results.case_text))
+
+
+def _scene(results: Results, tables: dict[str, object]) -> Iterator[str]:
+    """The scene when the sea has grown; a sketch of the case where its files are not there."""
+    try:
+        seen = view(results)
+    except (HydrodaeError, OSError) as error:
+        yield page.picture(sketch(tables), "bodies and joints in the reference pose")
+        yield page.paragraph(
+            "Reference pose from the side: centres of gravity, joints (squares), lines. "
+            f"The scene is not drawn: {str(error).splitlines()[0]}"
+        )
+        return
+    drawn = scene_picture(seen.stage, seen.frame, seen.opening)
+    yield page.picture(drawn, "bodies, lines and sea")
+    yield page.paragraph(f"The scene at t = {seen.opening:g} s, true to scale, waves too.")
 
 
 def _notes(results: Results) -> str:

@@ -21,7 +21,7 @@ def parts(tables: Tables) -> Iterator[tuple[str, str, str, str]]:
             "body",
             str(body.get("name", "")),
             _words(body.get("motion", "rigid")),
-            f"{body.get('mass', 0.0):,.6g} kg at {_words(body.get('center_of_gravity', []))} m",
+            f"{_mass(body.get('mass', 0.0))} at {_words(body.get('center_of_gravity', []))} m",
         )
     for kind in ("joint", "constraint", "force", "wave", "morison", "controller"):
         for entry in tables.get(kind, []):
@@ -95,6 +95,11 @@ def sketch(tables: Tables) -> Figure:
     axes.margins(0.15)
     axes.set_aspect("equal", adjustable="datalim")
     return figure
+
+
+def _mass(value: float | str) -> str:
+    """A mass, or the word that stands for it."""
+    return f"mass {value}" if isinstance(value, str) else f"{value:,.6g} kg"
 
 
 def _words(value: Any) -> str:

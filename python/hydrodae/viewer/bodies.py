@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from hydrodae.case.bodies import bodies_and_attachments
+from hydrodae.case.bodies import bodies_and_attachments, shape_file
 from hydrodae.hdb.database.coordinates import check_body
 from hydrodae.hdb.database.files import read as read_database
 from hydrodae.hdb.database.tables import Body as HydroBody
@@ -59,12 +59,15 @@ def make_bodies(
     made = []
     for entry in entries:
         name, center = entry["name"], _center(entry)
-        cut = ""
+        cut, drawn = "", shape_file(source.case.directory, name)
         if "mesh" in entry and name not in wanted:
             place = np.asarray(entry.get("mesh_origin", np.zeros(3)), dtype=float)
             hull = triangles_of(read_mesh(source.case.directory / entry["mesh"]) + place)
             above, cut = NOTHING, _cut(entry, tables)
             origin = f"its mesh, {len(hull)} triangles; dark: beneath {CUTS[cut]}"
+        elif drawn.is_file() and name not in wanted:
+            hull, above = triangles_of(read_mesh(drawn)), NOTHING
+            origin = f"shapes/{drawn.name} beside the case, {len(hull)} triangles"
         else:
             hull, above, origin = _surface(
                 entry, wanted.get(name), wet.get(entry.get("hydro", "")), ends[name], tables, size

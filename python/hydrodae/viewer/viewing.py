@@ -41,20 +41,28 @@ class View:
     frame: Frame
     camera: tuple[float, float, float]
 
+    @property
+    def opening(self) -> float:
+        """First sample at which the waves have grown, the last one if they have not [s]."""
+        sea, time = self.stage.sea, self.stage.time
+        if sea is None or not len(sea.waves):
+            return float(time[0])
+        return float(time[min(int(np.searchsorted(time, sea.ramp)), len(time) - 1)])
+
     def html(self, time: float | None = None) -> str:
         """Return the page: one HTML file that needs neither network nor server.
 
         Parameters
         ----------
         time : float, optional
-            At which it opens [s]; by default the first sample.
+            At which it opens [s]; by default `opening`.
 
         Raises
         ------
         CaseError
             The time is outside of the samples.
         """
-        begin = float(self.stage.time[0]) if time is None else self._inside(time)
+        begin = self.opening if time is None else self._inside(time)
         return page_text(self.stage, self.frame, self.camera, begin)
 
     def write(self, path: PathLike, *, time: float | None = None) -> Path:
@@ -65,7 +73,7 @@ class View:
         path : path
             Ends in .html.
         time : float, optional
-            At which it opens [s]; by default the first sample.
+            At which it opens [s]; by default `opening`.
 
         Raises
         ------

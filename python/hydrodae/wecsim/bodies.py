@@ -8,14 +8,16 @@ from typing import Any
 
 import numpy as np
 
+from hydrodae.case.bodies import shape_file
 from hydrodae.errors import CaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.hull.closed import write_stl
+from hydrodae.hdb.hull.meshes import triangles_of
 from hydrodae.support.arrays import Array
 from hydrodae.wecsim.modes import Modes, add_modes
 from hydrodae.wecsim.morison import members
 from hydrodae.wecsim.objects import InputFile, Item
-from hydrodae.wecsim.surface import read_surface
+from hydrodae.wecsim.surface import read_shape, read_surface
 from hydrodae.wecsim.text import CaseText
 
 #: Fields of bodies that are for pictures, or that nothing here depends on.
@@ -29,7 +31,6 @@ IDLE = {
     "dof": "",
     "flex": "",
     "gbmDOF": "",
-    "geometryFile": "the viewer draws the wetted hull that the database has",
 }
 #: Fields of effects that the kernel has another way, or not at all.
 LACKING = {
@@ -148,13 +149,13 @@ class Bodies:
         elif shift.any() or rotation.any():
             self._left_out(item, "initial.displacement", "start of a body that is fixed")
         text.table("[[body]]", keys, f"{item.title}{comment}")
-        if "mesh" in keys:
-            item.used.add("geometryFile")
+        if "mesh" not in keys:
+            self._draw(item, number)
         if name in self.modes:
             add_modes(text, self.read, item, name, self.modes[name])
         elif item.whole("flex"):
             self._left_out(item, "flex", "generalised modes, which the database lacks", "modes")
-        self._notes(item, keys)
+        self._notes(item)
         if motion != "fixed":
             self._damping(text, item, name)
         self._morison(text, item, number, name)
@@ -170,12 +171,11 @@ class Bodies:
         if option == 0:
             return {}
         effect = "nonlinear hydrodynamics (pressure on the mesh at each instant)"
-        stated = item.text("geometryFile")
-        if motion == "fixed" or not self.is_wet(number) or not stated:
+        file = self._file(item)
+        if motion == "fixed" or not self.is_wet(number) or file is None:
             what = "it does not move" if motion == "fixed" else "no database or geometryFile"
             self._left_out(item, "nonlinearHydro", f"{effect}: {what}")
             return {}
-        file = self.read.path.parent / stated.replace("\\", "/")
         triangles, fault = read_surface(file, self.center_of_gravity(number))
         if fault:
             self._left_out(item, "nonlinearHydro", f"{effect}: {fault}")
@@ -188,6 +188,26 @@ class Bodies:
                 place, f"{item.title}.nonlinearHydro = 1 taken as 2: pressure up to the wave"
             )
         return {"mesh": name, "hydrostatics": "mesh", "froude_krylov": "mesh"}
+
+    def _file(self, item: Item) -> Path | None:
+        """Geometry file; None if none is stated."""
+        stated = item.text("geometryFile")
+        item.used.add("geometryFile")
+        return self.read.path.parent / stated.replace("\\", "/") if stated else None
+
+    def _draw(self, item: Item, number: int) -> None:
+        """Write the geometry file to where pictures look for it, in world axes."""
+        file = self._file(item)
+        if file is None:
+            return
+        panels, fault = read_shape(file, self.center_of_gravity(number))
+        if fault:
+            place = self.read.place(item.line_of("geometryFile"))
+            self.read.remarks.not_needed(place, f"{item.title}.geometryFile to draw it ({fault})")
+            return
+        target = shape_file(self.target, self.names[number])
+        target.parent.mkdir(exist_ok=True)
+        write_stl(triangles_of(panels), target)
 
     def _mass(self, item: Item, number: int) -> tuple[float | str, str]:
         value = item.get("mass")
@@ -220,7 +240,7 @@ class Bodies:
             keys["products_of_inertia"] = products[[0, 2, 1]]
         return keys
 
-    def _notes(self, item: Item, keys: Mapping[str, Any]) -> None:
+    def _notes(self, item: Item) -> None:
         remarks = self.read.remarks
         for field, text in LACKING.items():
             if np.any(item.vector(field, [0.0]) != 0.0):
@@ -229,7 +249,7 @@ class Bodies:
             if field.startswith("variableHydro."):
                 item.used.add(field)
         for field, why in IDLE.items():
-            if field in item.entries and not (field == "geometryFile" and "mesh" in keys):
+            if field in item.entries:
                 item.used.add(field)
                 place = self.read.place(item.line_of(field))
                 remarks.not_needed(place, f"{item.title}.{field}" + (f" ({why})" if why else ""))

@@ -121,6 +121,7 @@ def convert(
     except BaseException:
         for file in [
             *target.glob("*.stl"),
+            *target.glob("shapes/*.stl"),
             *target.glob("*.csv"),
             target / "case.toml",
             target / "hydro.h5",
@@ -128,8 +129,9 @@ def convert(
             target / POWERS,
         ]:
             file.unlink(missing_ok=True)
-        if made and not any(target.iterdir()):
-            target.rmdir()
+        for folder in (target / "shapes", target) if made else (target / "shapes",):
+            if folder.is_dir() and not any(folder.iterdir()):
+                folder.rmdir()
         raise
 
 
