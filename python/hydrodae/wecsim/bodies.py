@@ -85,7 +85,6 @@ class Bodies:
         """World [m]: of the database, or of the input file for bodies without one."""
         item = self.item(number)
         if self.is_wet(number) and self.database is not None:
-            item.used |= {"centerGravity"}
             point = self.database.bodies[self.names[number]].reference_point
             if point is not None:
                 return np.asarray(point)
@@ -103,7 +102,6 @@ class Bodies:
         item = self.item(number)
         if self.is_wet(number) and self.database is not None:
             statics = self.database.bodies[self.names[number]].hydrostatics
-            item.used |= {"volume", "centerBuoyancy"}
             return 0.0 if statics is None else float(statics.displaced_volume)
         return item.number_of("volume")
 
@@ -136,6 +134,8 @@ class Bodies:
                 item.used.add("centerBuoyancy")
                 place = self.read.place(item.line_of("centerBuoyancy"))
                 self.read.remarks.not_needed(place, f"{item.title}.centerBuoyancy (no volume)")
+        else:
+            self._overwritten(item, name)
         keys |= self._surface(item, number, motion)
         shift, rotation = self.start(number)
         if motion != "fixed" and (shift.any() or rotation.any()):
@@ -158,6 +158,16 @@ class Bodies:
         if motion != "fixed":
             self._damping(text, item, name)
         self._morison(text, item, number, name)
+
+    def _overwritten(self, item: Item, name: str) -> None:
+        """Name what WEC-Sim overwrites with the values of the database, as is done here."""
+        for field in ("centerGravity", "centerBuoyancy", "volume"):
+            if field in item.entries:
+                item.used.add(field)
+                self.read.remarks.assumed(
+                    self.read.place(item.line_of(field)),
+                    f"{item.title}.{field} is that of {name} in the database, as in WEC-Sim",
+                )
 
     def _left_out(self, item: Item, field: str, text: str, part: str = "") -> None:
         item.used.add(field)

@@ -267,6 +267,13 @@ class Links:
         unit = _PER_DEGREE if turns else 1.0
         for side, other in (("upper", "lower"), ("lower", "upper")):
             entry = f"hardStops.{side}Limit"
+            if f"{entry}TransitionRegion" in item.entries:
+                item.used.add(f"{entry}TransitionRegion")
+                place = self.read.place(item.line_of(f"{entry}TransitionRegion"))
+                told = f"no field of WEC-Sim, which has {entry}TransitionRegionWidth"
+                self.read.remarks.not_needed(
+                    place, f"{item.title}.{entry}TransitionRegion ({told})"
+                )
             on = item.text(f"{entry}Specify", "off") == "on"
             bound = item.number_of(f"{entry}Bound", 1.0 if side == "upper" else -1.0)
             stiffness = item.number_of(f"{entry}Stiffness", 1e6) * unit
