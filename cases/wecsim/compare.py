@@ -86,7 +86,7 @@ def row_of(example: dict[str, Any], clones: list[Path], work: Path) -> Row:
     row = Row(folder, "yes")
     begin = time.perf_counter()
     try:
-        converted = convert(found[0], work, accept=None)
+        converted = convert(found[0], work, accept=None, define=example.get("define"))
         row.converting = time.perf_counter() - begin
         begin = time.perf_counter()
         results = hydrodae.run(converted.case)

@@ -352,7 +352,7 @@ def test_body_of_a_mooring_deck_is_where_the_input_file_says(
     )
     converted = convert(two_bodies, tmp_path / "case")
     assert left_out(converted) == ""
-    (line,) = (f for f in tables(tmp_path / "case")["force"] if f["type"] == "catenary")
+    (line,) = (f for f in tables(tmp_path / "case")["force"] if f["type"] == "line")
     ends = {line["body_a"]: line["point_a"], line["body_b"]: line["point_b"]}
     assert ends["spar_plate"] == pytest.approx([23.0, 0.0, -0.5])
     assert ends["ground"] == pytest.approx([90.0, 0.0, -50.0])

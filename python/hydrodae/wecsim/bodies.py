@@ -245,18 +245,9 @@ class Bodies:
                 remarks.not_needed(place, f"{item.title}.{field}" + (f" ({why})" if why else ""))
 
     def _damping(self, text: CaseText, item: Item, name: str) -> None:
-        linear = _six(item.get("linearDamping"))
-        quadratic = _six(item.get("quadDrag.drag"))
-        area = item.vector("quadDrag.area", [])
-        factor = item.vector("quadDrag.cd", [])
-        if not quadratic.any() and area.size == 6 and factor.size == 6:
-            quadratic = np.diag(0.5 * self.rho * factor * area)
-        if not (linear.any() or quadratic.any()):
-            return
-        keys: dict[str, Any] = {"type": "viscous_damping", "name": f"{name}_drag", "body": name}
-        keys["linear"] = _short(linear) if linear.any() else None
-        keys["quadratic"] = _short(quadratic) if quadratic.any() else None
-        text.table("[[force]]", keys, f"linearDamping and quadDrag of {item.title}")
+        if keys := damping_keys(item, self.rho):
+            keys = {"type": "viscous_damping", "name": f"{name}_drag", "body": name} | keys
+            text.table("[[force]]", keys, f"linearDamping and quadDrag of {item.title}")
 
     def _morison(self, text: CaseText, item: Item, number: int, name: str) -> None:
         option = item.whole("morisonElement.option")
@@ -280,6 +271,18 @@ class Bodies:
                     {"name": f"{name}_morison{index + 1}{suffix}", "body": name} | keys,
                     f"Morison element {index + 1} of {item.title}",
                 )
+
+
+def damping_keys(item: Item, rho: float) -> dict[str, Any]:
+    """Keys of `viscous_damping` for linearDamping and quadDrag; empty where there are none."""
+    linear = _six(item.get("linearDamping"))
+    quadratic = _six(item.get("quadDrag.drag"))
+    area = item.vector("quadDrag.area", [])
+    factor = item.vector("quadDrag.cd", [])
+    if not quadratic.any() and area.size == 6 and factor.size == 6:
+        quadratic = np.diag(0.5 * rho * factor * area)
+    found = {"linear": linear, "quadratic": quadratic}
+    return {key: _short(matrix) for key, matrix in found.items() if matrix.any()}
 
 
 def _six(value: Any) -> Array:

@@ -139,7 +139,11 @@ class Links:
             return None
         try:
             with understood():
-                return find_law(link.block, link.kind, self.read)
+                law = find_law(link.block, link.kind, self.read)
+            if law == Law():
+                text = f"force of {title} from Simulink is zero with the gains of the input file"
+                self.read.remarks.assumed(place, text)
+            return law
         except NotEvaluated as error:
             text = f"force of {title} from Simulink: {error}; see [[controller]] and python_load"
             self.read.remarks.left_out(place, text, "controller")

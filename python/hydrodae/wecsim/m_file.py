@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -42,23 +42,34 @@ _OPENERS = ("if", "for", "while", "switch", "function", "try", "parfor")
 _IDLE = ("clear clearvars clc close format hold warning disp fprintf addpath end save").split()
 
 
-def read_input(path: Path) -> InputFile:
+def read_input(path: Path, define: Mapping[str, str] | None = None) -> InputFile:
     """Read `wecSimInputFile.m`.
+
+    Parameters
+    ----------
+    path : Path
+    define : mapping from str, optional
+        Expressions of MATLAB for variables that are set before the file runs, by their names.
 
     Raises
     ------
     CaseError
-        There is no such file, or it is no text.
+        There is no such file, it is no text, or a variable has no value.
     """
     try:
         text = path.read_text(encoding="utf-8", errors="replace")
     except OSError as error:
         raise CaseError(f"{path}: cannot be read ({error.strerror})") from None
+    read = InputFile(path)
+    for name, value in (define or {}).items():
+        try:
+            assign(read, name, evaluate(read, value))
+        except NotEvaluated as error:
+            raise CaseError(f"--define {name}={value}: {error}; write a number or 'text'") from None
     try:
         parts = statements(text)
     except NotEvaluated as error:
         raise CaseError(f"{path}: {error}") from None
-    read = InputFile(path)
     try:
         _Run(read).block(parts, 0, True)
     except RecursionError:
@@ -163,7 +174,8 @@ class _Run:
                     with understood():
                         now = bool(np.all(value))
                 except NotEvaluated as error:
-                    why = f"condition not evaluated ({error}), taken as false"
+                    why = f"condition not evaluated ({error}; --define NAME=VALUE sets a variable)"
+                    why += ", taken as false"
                     self._unread(parts[at : _end_of(parts, at)], self._skipped(statement, why))
                     now = False
             taken = taken or now
