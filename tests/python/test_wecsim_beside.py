@@ -10,7 +10,7 @@ from scipy.io import savemat
 from tests.python.wecsim_files import append, left_out, tables, write_one_body
 
 from hydrodae.commands.cli import main
-from hydrodae.errors import CaseError
+from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.wecsim import convert
 from hydrodae.wecsim.m_file import read_input
 
@@ -126,3 +126,18 @@ def test_what_the_database_overwrites_is_named(tmp_path: Path) -> None:
         converted.remarks.of("not needed")
     )
     assert np.isclose(tables(tmp_path / "case")["force"][0]["damping"], 1e4)
+
+
+def test_the_comment_of_the_radiation_says_what_stands_below_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object, **__: object) -> None:
+        raise DatabaseError("no good fit")
+
+    monkeypatch.setattr("hydrodae.wecsim.hydro.fit", refuse)
+    waves = WAVES.replace("regular", "regularCIC")
+    write_one_body(tmp_path / "source", waves, "pto(1).damping = 1e4;")
+    lines = convert(tmp_path / "source", tmp_path / "case").case.read_text().splitlines()
+    above = lines[lines.index("[hydro]") - 1]
+    assert above == "# regularCIC: convolution, since no fit was good enough."
+    assert 'radiation = "convolution"' in lines

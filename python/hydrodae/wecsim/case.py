@@ -223,7 +223,9 @@ def _database(
         database, mirrors = mirrored(database)
         for finding in mirrors:
             read.remarks.assumed("headings", finding.message)
-    database, kind = with_radiation(database, moving, kind, read)
+    database, found = with_radiation(database, moving, kind, read)
+    if found != kind:
+        kind, why = found, f"{why.partition(':')[0]}: {found}, since no fit was good enough."
     keys: dict[str, float | str] = {"database": "hydro.h5"}
     for body in read.of("body"):
         body.used |= {"yaw.option", "yaw.threshold"}
