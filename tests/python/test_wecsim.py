@@ -234,7 +234,7 @@ def test_what_the_case_does_not_hold_is_listed(two_bodies: Path, tmp_path: Path,
     assert f"body(1).viz.color ({lines + 3})" in out
     assert f"wecSimInputFile.m:{lines + 4}: ptoSim(1): PTO-Sim" in out
     assert f"wecSimInputFile.m:{lines + 5}: simu.mcrMatFile" in out
-    assert "model.slx, block 'Rope': Cables Cable" in out
+    assert "model.slx, block 'Rope': cable(1) is not in wecSimInputFile.m" in out
     assert "model.slx, block 'PTO': force of pto(1) from Simulink" in out
     assert f"next: hydrodae run {case}" in out
     notes = hydrodae.run(Path(case) / "case.toml", set={"solver.end_time": 1.0}).notes
