@@ -1,15 +1,18 @@
 """Convert and run the examples of WEC-Sim.
 
     python cases/wecsim/compare.py WEC-Sim WEC-Sim_Applications
+    HYDRODAE_WECSIM=clones python cases/wecsim/compare.py --survey
 
 The clones are WEC-Sim/WEC-Sim and WEC-Sim/WEC-Sim_Applications. `examples.json` lists the folders
-and the figure of each. The table is Markdown.
+and the figure of each. The table is Markdown. `--survey` takes every input file below the folders,
+or below the one that HYDRODAE_WECSIM names, and says which convert whole; see `survey.py`.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import os
 import sys
 import tempfile
 import time
@@ -19,6 +22,7 @@ from pathlib import Path
 from typing import Any
 
 import figures  # type: ignore[import-not-found] # stands beside this file
+import survey  # type: ignore[import-not-found] # stands beside this file
 
 import hydrodae
 from hydrodae.errors import HydrodaeError
@@ -82,7 +86,7 @@ def row_of(example: dict[str, Any], clones: list[Path], work: Path) -> Row:
     row = Row(folder, "yes")
     begin = time.perf_counter()
     try:
-        converted = convert(found[0], work, accept=None)
+        converted = convert(found[0], work, accept=None, define=example.get("define"))
         row.converting = time.perf_counter() - begin
         begin = time.perf_counter()
         results = hydrodae.run(converted.case)
@@ -113,17 +117,7 @@ def read_examples(path: Path) -> list[dict[str, Any]]:
     return list(json.loads(path.read_text(encoding="utf-8")))
 
 
-def main(arguments: list[str]) -> int:
-    """Write the table."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("clones", nargs="+", type=Path, metavar="CLONE")
-    parser.add_argument("--examples", type=Path, default=EXAMPLES, help="other list of examples")
-    parser.add_argument("--only", default="", metavar="TEXT", help="folders that contain this")
-    parser.add_argument("--output", type=Path, metavar="FILE", help="write the table here")
-    given = parser.parse_args(arguments)
-    for clone in given.clones:
-        if not clone.is_dir():
-            parser.error(f"{clone}: there is no such folder")
+def _compared(given: argparse.Namespace, parser: argparse.ArgumentParser) -> str:
     rows: list[Row] = []
     for example in read_examples(given.examples):
         if given.only not in example["folder"]:
@@ -136,7 +130,29 @@ def main(arguments: list[str]) -> int:
         parser.error(f"--only {given.only}: no folder of {given.examples} contains it")
     kinds = [row.runs.partition(":")[0] for row in rows]
     count = ", ".join(f"{kind} {kinds.count(kind)}" for kind in ("yes", "part", "no"))
-    table = "\n".join([HEADER, *map(str, rows), "", f"Of {len(rows)}: {count}."])
+    return "\n".join([HEADER, *map(str, rows), "", f"Of {len(rows)}: {count}."])
+
+
+def main(arguments: list[str]) -> int:
+    """Write the table."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("clones", nargs="*", type=Path, metavar="CLONE")
+    parser.add_argument("--survey", action="store_true", help="all input files below the clones")
+    parser.add_argument("--seconds", type=float, metavar="T", help="--survey: run at most this [s]")
+    parser.add_argument("--examples", type=Path, default=EXAMPLES, help="other list of examples")
+    parser.add_argument("--only", default="", metavar="TEXT", help="folders that contain this")
+    parser.add_argument("--output", type=Path, metavar="FILE", help="write the table here")
+    given = parser.parse_args(arguments)
+    if not given.clones and survey.VARIABLE in os.environ:
+        given.clones = [Path(os.environ[survey.VARIABLE])]
+    if not given.clones:
+        parser.error(f"name a CLONE, or set {survey.VARIABLE} to a folder that holds the clones")
+    if given.seconds is not None and not (given.survey and given.seconds > 0.0):
+        parser.error("--seconds: goes with --survey, above zero")
+    for clone in given.clones:
+        if not clone.is_dir():
+            parser.error(f"{clone}: there is no such folder")
+    table = survey.table(given) if given.survey else _compared(given, parser)
     if given.output is None:
         print(table)
     else:

@@ -109,7 +109,7 @@ FAULTS: list[tuple[str, str, Change, str, str | None, int | None]] = [
     ("wamit", "run.3", line(9, ".*", " 1.0 0.0 1 2.0"), "shape", None, 9),
     ("wamit", "run.pot", line(8, ".*", " NBODY"), "format", None, 8),
     ("wamit", "run.pot", line(10, ".*", " 0 0 -1 30 XBODY"), "unsupported", None, 10),
-    ("wamit", "run.cfg", old("IPEROUT=1", "IPEROUT=7"), "format", "IPEROUT", None),
+    ("wamit", "run.cfg", old("IPEROUT=1", "IPEROUT=7"), "format", "IPEROUT", 1),
     ("wamit", "A.GDF", line(2, ".*", " one two"), "format", None, 2),
     ("sphere_wamit", "sphere.hst", old(" 3     3 ", " 7     3 "), "label", "modes", None),
     (HAMS, "Wamit_format/Buoy.3", words(3, 2, "40"), "label", "modes", 3),
@@ -168,8 +168,7 @@ def test_refused(
     changed = tmp_path / "run" / file
     text = changed.read_text() if changed.exists() else ""
     changed.write_text(change(text))
-    told = None if file == "run.cfg" else changed.name
-    told = Path(TEC).name if change is without_a_force else told
+    told = Path(TEC).name if change is without_a_force else changed.name
     with refused(reason, subject, file=told, line=place):
         read = READERS.get(file)
         hdb.read(path, rho=1000.0 if name == "wamit" else None) if read is None else read(changed)

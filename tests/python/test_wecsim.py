@@ -234,7 +234,7 @@ def test_what_the_case_does_not_hold_is_listed(two_bodies: Path, tmp_path: Path,
     assert f"body(1).viz.color ({lines + 3})" in out
     assert f"wecSimInputFile.m:{lines + 4}: ptoSim(1): PTO-Sim" in out
     assert f"wecSimInputFile.m:{lines + 5}: simu.mcrMatFile" in out
-    assert "model.slx, block 'Rope': Cables Cable" in out
+    assert "model.slx, block 'Rope': cable(1) is not in wecSimInputFile.m" in out
     assert "model.slx, block 'PTO': force of pto(1) from Simulink" in out
     assert f"next: hydrodae run {case}" in out
     notes = hydrodae.run(Path(case) / "case.toml", set={"solver.end_time": 1.0}).notes
@@ -352,7 +352,7 @@ def test_body_of_a_mooring_deck_is_where_the_input_file_says(
     )
     converted = convert(two_bodies, tmp_path / "case")
     assert left_out(converted) == ""
-    (line,) = (f for f in tables(tmp_path / "case")["force"] if f["type"] == "catenary")
+    (line,) = (f for f in tables(tmp_path / "case")["force"] if f["type"] == "line")
     ends = {line["body_a"]: line["point_a"], line["body_b"]: line["point_b"]}
     assert ends["spar_plate"] == pytest.approx([23.0, 0.0, -0.5])
     assert ends["ground"] == pytest.approx([90.0, 0.0, -50.0])

@@ -17,6 +17,7 @@ LIBRARIES = {
     "Global Reference Frame": "WECSim_Lib_Frames/Global Reference Frame",
     "Fixed": "WECSim_Lib_Constraints/Fixed",
     "Floating (3DOF)": "WECSim_Lib_Constraints/Floating (3DOF)",
+    "Spherical": "WECSim_Lib_Constraints/Spherical",
     "Translational": "WECSim_Lib_Constraints/Translational",
     "Translational PTO": "WECSim_Lib_PTOs/Translational PTO",
     "Translational PTO Actuation Force": "WECSim_Lib_PTOs/Translational PTO&#xA;Actuation Force",

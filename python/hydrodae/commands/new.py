@@ -38,14 +38,22 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="with --from: write the case although it lacks this part of the device, such as "
         "waves, pto, joint, mooring or cable. May be repeated",
     )
+    parser.add_argument(
+        "--define",
+        metavar="NAME=VALUE",
+        action="append",
+        default=[],
+        help="with --from: a variable that a script sets before the input file runs. May be "
+        "repeated",
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Write a starter, or what a run of WEC-Sim is here, or list the kinds; returns 0."""
     if arguments.origin is not None:
         return _convert(arguments)
-    if arguments.accept:
-        raise CaseError("--accept is for --from")
+    if arguments.accept or arguments.define:
+        raise CaseError(f"--{'accept' if arguments.accept else 'define'} is for --from")
     from hydrodae.starters import KINDS, create
 
     if arguments.kind is None:
@@ -73,7 +81,12 @@ def _convert(arguments: argparse.Namespace) -> int:
         raise CaseError(f"hydrodae new FOLDER --from {program} {path}: one folder is needed")
     from hydrodae.wecsim import convert
 
-    converted = convert(path, arguments.kind, accept=arguments.accept)
+    define = {}
+    for text in arguments.define:
+        name, equals, define[name] = text.partition("=")
+        if not equals or not name.isidentifier():
+            raise CaseError(f"--define {text}: expected NAME=VALUE, such as --define option=1")
+    converted = convert(path, arguments.kind, accept=arguments.accept, define=define)
     _print_remarks(converted)
     _tell(converted.case)
     return 0

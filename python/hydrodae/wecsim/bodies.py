@@ -86,7 +86,6 @@ class Bodies:
         """World [m]: of the database, or of the input file for bodies without one."""
         item = self.item(number)
         if self.is_wet(number) and self.database is not None:
-            item.used |= {"centerGravity"}
             point = self.database.bodies[self.names[number]].reference_point
             if point is not None:
                 return np.asarray(point)
@@ -104,7 +103,6 @@ class Bodies:
         item = self.item(number)
         if self.is_wet(number) and self.database is not None:
             statics = self.database.bodies[self.names[number]].hydrostatics
-            item.used |= {"volume", "centerBuoyancy"}
             return 0.0 if statics is None else float(statics.displaced_volume)
         return item.number_of("volume")
 
@@ -137,6 +135,8 @@ class Bodies:
                 item.used.add("centerBuoyancy")
                 place = self.read.place(item.line_of("centerBuoyancy"))
                 self.read.remarks.not_needed(place, f"{item.title}.centerBuoyancy (no volume)")
+        else:
+            self._overwritten(item, name)
         keys |= self._surface(item, number, motion)
         shift, rotation = self.start(number)
         if motion != "fixed" and (shift.any() or rotation.any()):
@@ -159,6 +159,16 @@ class Bodies:
         if motion != "fixed":
             self._damping(text, item, name)
         self._morison(text, item, number, name)
+
+    def _overwritten(self, item: Item, name: str) -> None:
+        """Name what WEC-Sim overwrites with the values of the database, as is done here."""
+        for field in ("centerGravity", "centerBuoyancy", "volume"):
+            if field in item.entries:
+                item.used.add(field)
+                self.read.remarks.assumed(
+                    self.read.place(item.line_of(field)),
+                    f"{item.title}.{field} is that of {name} in the database, as in WEC-Sim",
+                )
 
     def _left_out(self, item: Item, field: str, text: str, part: str = "") -> None:
         item.used.add(field)
@@ -255,18 +265,9 @@ class Bodies:
                 remarks.not_needed(place, f"{item.title}.{field}" + (f" ({why})" if why else ""))
 
     def _damping(self, text: CaseText, item: Item, name: str) -> None:
-        linear = _six(item.get("linearDamping"))
-        quadratic = _six(item.get("quadDrag.drag"))
-        area = item.vector("quadDrag.area", [])
-        factor = item.vector("quadDrag.cd", [])
-        if not quadratic.any() and area.size == 6 and factor.size == 6:
-            quadratic = np.diag(0.5 * self.rho * factor * area)
-        if not (linear.any() or quadratic.any()):
-            return
-        keys: dict[str, Any] = {"type": "viscous_damping", "name": f"{name}_drag", "body": name}
-        keys["linear"] = _short(linear) if linear.any() else None
-        keys["quadratic"] = _short(quadratic) if quadratic.any() else None
-        text.table("[[force]]", keys, f"linearDamping and quadDrag of {item.title}")
+        if keys := damping_keys(item, self.rho):
+            keys = {"type": "viscous_damping", "name": f"{name}_drag", "body": name} | keys
+            text.table("[[force]]", keys, f"linearDamping and quadDrag of {item.title}")
 
     def _morison(self, text: CaseText, item: Item, number: int, name: str) -> None:
         option = item.whole("morisonElement.option")
@@ -290,6 +291,18 @@ class Bodies:
                     {"name": f"{name}_morison{index + 1}{suffix}", "body": name} | keys,
                     f"Morison element {index + 1} of {item.title}",
                 )
+
+
+def damping_keys(item: Item, rho: float) -> dict[str, Any]:
+    """Keys of `viscous_damping` for linearDamping and quadDrag; empty where there are none."""
+    linear = _six(item.get("linearDamping"))
+    quadratic = _six(item.get("quadDrag.drag"))
+    area = item.vector("quadDrag.area", [])
+    factor = item.vector("quadDrag.cd", [])
+    if not quadratic.any() and area.size == 6 and factor.size == 6:
+        quadratic = np.diag(0.5 * rho * factor * area)
+    found = {"linear": linear, "quadratic": quadratic}
+    return {key: _short(matrix) for key, matrix in found.items() if matrix.any()}
 
 
 def _six(value: Any) -> Array:

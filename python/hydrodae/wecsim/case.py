@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,7 @@ from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.preparation.mirroring import mirrored
 from hydrodae.wecsim.air import add_orifice, atmosphere, has_orifice
 from hydrodae.wecsim.bodies import Bodies
+from hydrodae.wecsim.cables import add_cable, node_keys
 from hydrodae.wecsim.conditions import STUDY, find_conditions, write_study
 from hydrodae.wecsim.drift import add_drift
 from hydrodae.wecsim.hydro import find_source, read_database, with_radiation
@@ -36,7 +37,7 @@ INPUT = "wecSimInputFile.m"
 #: Coordinates of the database that move with each motion of a body.
 _KEEP = {"rigid": "all", "planar": "planar", "heave": "heave", "yaw": "yaw"}
 #: What these become by hand.
-_OTHERS = {"cable": "a cable; see the force rope", "wind": "wind", "windTurbine": "a wind turbine"}
+_OTHERS = {"wind": "wind", "windTurbine": "a wind turbine"}
 #: Parts of a device by the object that states their fields; see `Remark`.
 _PARTS = {"waves": "waves", "pto": "pto", "constraint": "joint", "mooring": "mooring"}
 #: Fields of these without which they are what they are, but for chance and pictures.
@@ -63,6 +64,7 @@ def convert(
     source: str | os.PathLike[str],
     folder: str | os.PathLike[str],
     accept: Sequence[str] | None = (),
+    define: Mapping[str, str] | None = None,
 ) -> Converted:
     """Write a case for a run of WEC-Sim: case.toml, hydro.h5 and what they need.
 
@@ -75,6 +77,9 @@ def convert(
     accept : sequence of str
         Parts of the device that the case may lack, as `hydrodae.wecsim.remarks.Remark` names them;
         None for whatever is missing.
+    define : mapping from str, optional
+        Expressions of MATLAB for variables that a script of the user sets before WEC-Sim reads the
+        input file, by their names.
 
     Raises
     ------
@@ -87,7 +92,7 @@ def convert(
     target = Path(folder)
     if target.exists() and (not target.is_dir() or any(target.iterdir())):
         raise CaseError(f"{target}: is there already; name a new or empty folder")
-    read = read_input(_input_file(Path(source)))
+    read = read_input(_input_file(Path(source)), define)
     model = read_slx(_model_file(read))
     topology = find_topology(model, read)
     conditions = find_conditions(read)
@@ -220,7 +225,9 @@ def _database(
         database, mirrors = mirrored(database)
         for finding in mirrors:
             read.remarks.assumed("headings", finding.message)
-    database, kind = with_radiation(database, moving, kind, read)
+    database, found = with_radiation(database, moving, kind, read)
+    if found != kind:
+        kind, why = found, f"{why.partition(':')[0]}: {found}, since no fit was good enough."
     keys: dict[str, float | str] = {"database": "hydro.h5"}
     for body in read.of("body"):
         body.used |= {"yaw.option", "yaw.threshold"}
@@ -269,6 +276,8 @@ def _write(
     links = Links(read, topology, bodies, carriers)
     for link in topology.links:
         links.add(text, link, model.place(link.block))
+    for cable in topology.cables:
+        add_cable(text, cable, topology, carriers, read)
     if links.stages is not None:
         simu = read.get("simu")
         links.stages.write(target, 100.0 if simu is None else simu.number_of("endTime", 100.0))
@@ -340,12 +349,11 @@ def _carriers(text: CaseText, topology: Topology, bodies: Bodies) -> dict[int, s
         elif group.bodies:
             carriers[key] = topology.names[group.bodies[0]]
         else:
-            carriers[key] = f"frame{count}"
-            text.table(
-                "[[body]]",
-                {"name": f"frame{count}", "mass": 0.0, "center_of_gravity": [0.0, 0.0, 0.0]},
-                "A frame between two joints, without mass.",
-            )
+            node = node_keys(key, topology, bodies.read, bodies.rho)
+            carriers[key] = f"node{count}" if node else f"frame{count}"
+            frame = {"name": carriers[key], "mass": 0.0, "center_of_gravity": [0.0, 0.0, 0.0]}
+            what = "The node of a cable." if node else "A frame between two joints, without mass."
+            text.table("[[body]]", frame | node, what)
         for number in group.bodies[1:]:
             if group.motion != "fixed":
                 name = topology.names[number]
@@ -367,10 +375,10 @@ def _unused(read: InputFile) -> None:
             part = item.kind.removesuffix("Turbine")
             read.remarks.left_out(read.place(item.line), text, part)
             continue
-        if item.kind in ("body", "constraint", "pto") and "" not in item.used:
-            read.remarks.left_out(
-                read.place(item.line), f"{item.title} has no block in the Simulink model"
-            )
+        if item.kind in ("body", "constraint", "pto", "cable") and "" not in item.used:
+            text = f"{item.title} has no block in the Simulink model"
+            part = "cable" if item.kind == "cable" else ""
+            read.remarks.left_out(read.place(item.line), text, part)
             continue
         if item.kind == "ptoSim" and "" not in item.used:
             read.remarks.left_out(

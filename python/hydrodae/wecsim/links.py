@@ -139,7 +139,11 @@ class Links:
             return None
         try:
             with understood():
-                return find_law(link.block, link.kind, self.read)
+                law = find_law(link.block, link.kind, self.read)
+            if law == Law():
+                text = f"force of {title} from Simulink is zero with the gains of the input file"
+                self.read.remarks.assumed(place, text)
+            return law
         except NotEvaluated as error:
             text = f"force of {title} from Simulink: {error}; see [[controller]] and python_load"
             self.read.remarks.left_out(place, text, "controller")
@@ -267,6 +271,13 @@ class Links:
         unit = _PER_DEGREE if turns else 1.0
         for side, other in (("upper", "lower"), ("lower", "upper")):
             entry = f"hardStops.{side}Limit"
+            if f"{entry}TransitionRegion" in item.entries:
+                item.used.add(f"{entry}TransitionRegion")
+                place = self.read.place(item.line_of(f"{entry}TransitionRegion"))
+                told = f"no field of WEC-Sim, which has {entry}TransitionRegionWidth"
+                self.read.remarks.not_needed(
+                    place, f"{item.title}.{entry}TransitionRegion ({told})"
+                )
             on = item.text(f"{entry}Specify", "off") == "on"
             bound = item.number_of(f"{entry}Bound", 1.0 if side == "upper" else -1.0)
             stiffness = item.number_of(f"{entry}Stiffness", 1e6) * unit

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +10,7 @@ import numpy as np
 
 from hydrodae.errors import CaseError
 from hydrodae.wecsim.m_arrays import elements, meshgrid, with_elements
+from hydrodae.wecsim.m_beside import loaded, script
 from hydrodae.wecsim.m_text import NotEvaluated, Statement, Token, statements, understood
 from hydrodae.wecsim.m_values import Expression
 from hydrodae.wecsim.objects import Entry, InputFile, Item
@@ -34,28 +35,41 @@ DEFAULTS = {"rho": 1000.0, "gravity": 9.81, "rampTime": 100.0, "dt": 0.1}
 #: Most rounds of a loop, and most statements of a file, loops carried out.
 _MOST_LOOPS = 10_000
 _MOST_STATEMENTS = 10 * _MOST_LOOPS
+#: Most scripts that call each other.
+_MOST_SCRIPTS = 10
 _OPENERS = ("if", "for", "while", "switch", "function", "try", "parfor")
 #: Statements without an effect on the model.
 _IDLE = ("clear clearvars clc close format hold warning disp fprintf addpath end save").split()
 
 
-def read_input(path: Path) -> InputFile:
+def read_input(path: Path, define: Mapping[str, str] | None = None) -> InputFile:
     """Read `wecSimInputFile.m`.
+
+    Parameters
+    ----------
+    path : Path
+    define : mapping from str, optional
+        Expressions of MATLAB for variables that are set before the file runs, by their names.
 
     Raises
     ------
     CaseError
-        There is no such file, or it is no text.
+        There is no such file, it is no text, or a variable has no value.
     """
     try:
         text = path.read_text(encoding="utf-8", errors="replace")
     except OSError as error:
         raise CaseError(f"{path}: cannot be read ({error.strerror})") from None
+    read = InputFile(path)
+    for name, value in (define or {}).items():
+        try:
+            assign(read, name, evaluate(read, value))
+        except NotEvaluated as error:
+            raise CaseError(f"--define {name}={value}: {error}; write a number or 'text'") from None
     try:
         parts = statements(text)
     except NotEvaluated as error:
         raise CaseError(f"{path}: {error}") from None
-    read = InputFile(path)
     try:
         _Run(read).block(parts, 0, True)
     except RecursionError:
@@ -100,6 +114,7 @@ class _Run:
     def __init__(self, read: InputFile) -> None:
         self.read = read
         self.left = _MOST_STATEMENTS
+        self.scripts: list[tuple[str, int]] = []  # scripts at work, and the lines that call them
 
     def block(self, parts: list[Statement], at: int, live: bool) -> int:
         """Execute up to the `end`, `else` or `elseif` of the block; returns where that stands."""
@@ -114,6 +129,8 @@ class _Run:
                 at = self._choice(parts, at, live)
             elif word == "for" and live:
                 at = self._loop(parts, at)
+            elif word == "switch" and live:
+                at = self._switch(parts, at)
             elif word in _OPENERS:
                 end = _end_of(parts, at)
                 if live:
@@ -157,7 +174,8 @@ class _Run:
                     with understood():
                         now = bool(np.all(value))
                 except NotEvaluated as error:
-                    why = f"condition not evaluated ({error}), taken as false"
+                    why = f"condition not evaluated ({error}; --define NAME=VALUE sets a variable)"
+                    why += ", taken as false"
                     self._unread(parts[at : _end_of(parts, at)], self._skipped(statement, why))
                     now = False
             taken = taken or now
@@ -165,34 +183,102 @@ class _Run:
             if at >= len(parts) or parts[at].tokens[0].text == "end":
                 return at
 
+    def _switch(self, parts: list[Statement], at: int) -> int:
+        """Carry out the case that a value is equal to, or is in; returns the end."""
+        end = _end_of(parts, at)
+        try:
+            value = self._value(_condition(parts[at].tokens[1:]))
+            for begin in _cases(parts, at, end):
+                tokens = _condition(parts[begin].tokens[1:])
+                other = parts[begin].tokens[0].text == "otherwise"
+                wanted = value if other else self._value(tokens)
+                if any(
+                    _equal(value, one) for one in (wanted if isinstance(wanted, list) else [wanted])
+                ):
+                    self.block(parts[:end], begin + 1, True)
+                    break
+        except NotEvaluated as error:
+            why = f"the switch block is not carried out ({error})"
+            self._unread(parts[at:end], self._skipped(parts[at], why))
+        return end
+
     def _statement(self, statement: Statement) -> None:
         equals = _assignment(statement.tokens)
-        if equals is None:
-            if statement.tokens[0].text not in _IDLE:
-                self._skipped(statement, "not carried out")
-            return
         try:
             with understood():
-                self._assign(statement, equals)
+                if equals is not None:
+                    self._assign(statement, equals)
+                elif statement.tokens[0].text not in _IDLE and not self._call(statement):
+                    self._skipped(statement, "not carried out")
         except NotEvaluated as error:
-            self._unread([statement], self._skipped(statement, f"not evaluated ({error})"))
+            why = "not carried out" if equals is None else "not evaluated"
+            if equals is None or not self._forget(statement.tokens[:equals]):
+                self._unread([statement], self._skipped(statement, f"{why} ({error})"))
+            else:
+                text = (
+                    f"{_shown(statement)}: {why} ({error}); what is made of it is named beside it"
+                )
+                self.read.remarks.not_needed(self._place(statement), text)
+
+    def _forget(self, left: tuple[Token, ...]) -> bool:
+        """Take the values of variables away that an assignment is to; whether all are variables."""
+        inside = _split(left[1:-1]) if left[0].text == "[" else iter([left])
+        targets = [_target(tokens) for tokens in inside]
+        for name, path in targets:
+            if self._is_object(name, path):
+                return False
+            fields = [part for part in path if part[0] != "("]
+            self.read.unknown.add(".".join([name, *fields]))
+            self.read.variables.pop(".".join([name, *fields]), None)
+        return True
+
+    def _call(self, statement: Statement) -> bool:
+        """Carry out a script beside the input file, or load variables; whether it is one."""
+        tokens, folder = statement.tokens, self.read.path.parent
+        name = tokens[0].text
+        if name == "load" and len(tokens) > 1:
+            word = tokens[1].text if tokens[1].kind == "name" else None
+            for key, value in loaded(folder, word or self._value(tokens[1:])).items():
+                self._variable(key, [], value, self._line(statement))
+            return True
+        parts = script(folder, name) if len(tokens) == 1 else None
+        if parts is None:
+            return False
+        if len(self.scripts) == _MOST_SCRIPTS:
+            raise NotEvaluated(f"more than {_MOST_SCRIPTS} scripts within each other")
+        self.scripts.append((f"{name}.m", self._line(statement)))
+        self.block(parts, 0, True)
+        self.scripts.pop()
+        return True
+
+    def _line(self, statement: Statement) -> int:
+        """Line of the input file: of a script the line that calls it."""
+        return self.scripts[0][1] if self.scripts else statement.line
 
     def _assign(self, statement: Statement, equals: int) -> None:
         """Carry out an assignment, its = at token `equals`."""
         left, right = statement.tokens[:equals], statement.tokens[equals + 1 :]
+        line = self._line(statement)
         if (names := _several(left)) and [t.text for t in right[:2]] == ["meshgrid", "("]:
             made = meshgrid([self._value(tokens) for tokens in _split(right[2:-1])])
             for name, value in zip(names, made, strict=False):
-                self._variable(name, [], value, statement.line)
+                self._variable(name, [], value, line)
             return
         name, path = _target(left)
         constructor = right[0].text if right and right[0].kind == "name" else ""
         if constructor in CONSTRUCTORS:
             self._construct(CONSTRUCTORS[constructor], path, right, statement)
-        elif (name, _number_in(path)) in self.read.items or name in CONSTRUCTORS.values():
-            self._set(name, path, self._value(right), statement.line)
+        elif self._is_object(name, path):
+            self._set(name, path, self._value(right), line)
+        elif constructor == "load" and not path:
+            told = loaded(self.read.path.parent, self._value(right[1:]))
+            for key, value in told.items():
+                self._variable(f"{name}.{key}", [], value, line)
         else:
-            self._variable(name, path, self._value(right), statement.line)
+            self._variable(name, path, self._value(right), line)
+
+    def _is_object(self, name: str, path: list[str]) -> bool:
+        return (name, _number_in(path)) in self.read.items or name in CONSTRUCTORS.values()
 
     def _unread(self, parts: list[Statement], remark: Remark) -> None:
         """Remember the fields of objects that statements set which are not carried out."""
@@ -216,7 +302,8 @@ class _Run:
             if arguments[-1] is None:
                 self._skipped(statement, "an argument is not evaluated")
         name = self.read.path.name
-        self.read.items[kind, number] = Item(kind, number, statement.line, arguments, file=name)
+        line = self._line(statement)
+        self.read.items[kind, number] = Item(kind, number, line, arguments, file=name)
 
     def argument(self, tokens: tuple[Token, ...]) -> Any:
         """Value of an argument; None where it cannot be evaluated."""
@@ -244,11 +331,15 @@ class _Run:
         path = _without_first(path)
         if path and path[-1][0] == "(":
             name, old = ".".join([name, *path[:-1]]), None
+            if name in self.read.unknown:
+                raise NotEvaluated(f"{name} has no value")
             if name in self.read.variables:
                 old = self.read.variables[name].value
             self.read.variables[name] = Entry(with_elements(old, path[-1], value), line)
         else:
-            self.read.variables[".".join([name, *path])] = Entry(value, line)
+            name = ".".join([name, *path])
+            self.read.unknown.discard(name)
+            self.read.variables[name] = Entry(value, line)
 
     def _value(self, tokens: tuple[Token, ...]) -> Any:
         return Expression(tokens, self._look_up).value()
@@ -274,8 +365,16 @@ class _Run:
         return entry.value if index is None else elements(entry.value, index)
 
     def _skipped(self, statement: Statement, why: str) -> Remark:
-        text = statement.text if len(statement.text) < 70 else statement.text[:67] + "..."
-        return self.read.remarks.left_out(self.read.place(statement.line), f"{text}: {why}")
+        return self.read.remarks.left_out(self._place(statement), f"{_shown(statement)}: {why}")
+
+    def _place(self, statement: Statement) -> str:
+        """File and line of a statement."""
+        name = self.scripts[-1][0] if self.scripts else self.read.path.name
+        return f"{name}:{statement.line}"
+
+
+def _shown(statement: Statement) -> str:
+    return statement.text if len(statement.text) < 70 else statement.text[:67] + "..."
 
 
 def _field_of(kind: str, path: list[str]) -> str:
@@ -296,6 +395,24 @@ def _end_of(parts: list[Statement], at: int) -> int:
         if depth == 0:
             return index
     return len(parts)
+
+
+def _cases(parts: list[Statement], at: int, end: int) -> Iterator[int]:
+    """Where the cases of a switch block begin, `otherwise` too, those of inner blocks left out."""
+    inner = at
+    for index in range(at + 1, end):
+        word = parts[index].tokens[0].text
+        if index > inner and word in _OPENERS:
+            inner = _end_of(parts, index)
+        elif index > inner and word in ("case", "otherwise"):
+            yield index
+
+
+def _equal(value: Any, wanted: Any) -> bool:
+    texts = isinstance(value, str), isinstance(wanted, str)
+    return texts[0] == texts[1] and bool(
+        value == wanted if texts[0] else np.array_equal(value, wanted)
+    )
 
 
 def _assignment(tokens: tuple[Token, ...]) -> int | None:

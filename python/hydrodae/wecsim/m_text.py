@@ -166,6 +166,8 @@ def _transposes(tokens: list[Token], spaced: bool, brackets: list[str]) -> bool:
     if not tokens or (spaced and brackets and brackets[-1] in "[{"):
         return False
     last = tokens[-1]
+    if last.kind == "name" and last.text in ("case", "switch", "if", "elseif", "while"):
+        return False
     return last.kind in ("number", "name", "string") or last.text in (")", "]", "}", "'", ".'")
 
 

@@ -91,7 +91,8 @@ def _moordyn(text: CaseText, item: Item, body: int, bodies: Bodies, read: InputF
     try:
         coupled = [k for k, b in read_deck(path).bodies.items() if b.attachment == "coupled"]
         at = {key: list(origin - shift) for key in coupled or [""]}
-        made = read_moordyn(path, body=name, at=at, bodies=dict.fromkeys(coupled or ["1"], name))
+        held = dict.fromkeys(coupled or ["1"], name)
+        made = read_moordyn(path, body=name, at=at, bodies=held, type="line")
     except CaseError as error:
         read.remarks.left_out(place, f"{item.title}: {error}", "mooring")
         return
@@ -100,6 +101,6 @@ def _moordyn(text: CaseText, item: Item, body: int, bodies: Bodies, read: InputF
         read.remarks.assumed(path.name, note)
     read.remarks.assumed(
         place,
-        f"{item.title}: lines at rest (`catenary`); `hydrodae mooring import --type line` "
-        "makes dynamic ones",
+        f"{item.title}: dynamic lines (`line`); `hydrodae mooring import --type catenary` makes "
+        "faster ones, at rest at each instant",
     )

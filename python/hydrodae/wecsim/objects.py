@@ -130,6 +130,8 @@ class InputFile:
     items : dict of Item
         By kind and number; ``simu`` and single ``waves`` have number 1.
     variables : dict of Entry
+    unknown : set of str
+        Variables whose last assignment could not be evaluated.
     remarks : Remarks
         Statements that could not be evaluated, with their lines.
     """
@@ -137,6 +139,7 @@ class InputFile:
     path: Path
     items: dict[tuple[str, int], Item] = field(default_factory=dict)
     variables: dict[str, Entry] = field(default_factory=dict)
+    unknown: set[str] = field(default_factory=set)
     remarks: Remarks = field(default_factory=Remarks)
 
     def of(self, kind: str) -> list[Item]:

@@ -245,7 +245,13 @@ def _directions(
         read.remarks.assumed(
             read.place(waves.line_of("direction")), "as many spreads as directions: equal shares"
         )
-    seed = waves.whole("phaseSeed") or 1
+    stated = waves.number_of("phaseSeed")
+    seed = round(stated) or 1
+    if not stated.is_integer():
+        place = read.place(waves.line_of("phaseSeed"))
+        read.remarks.assumed(
+            place, f"{waves.title}.phaseSeed = {stated:g}: {seed}, as seeds are whole"
+        )
     option = waves.text("bem.option", "EqualEnergy")
     extra: dict[str, Any] = {"seed": seed}
     count = waves.whole("bem.count")

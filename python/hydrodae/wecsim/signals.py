@@ -14,6 +14,8 @@ from hydrodae.wecsim.slx import Block
 #: Element of a response that is the motion of the joint: z of six, or the turn about y.
 _ELEMENT = {"Translational": 3.0, "Rotational": 5.0}
 _DEEPEST = 100
+#: Blocks whose output is zero as long as their input is.
+_AT_REST = ("DiscreteTransferFcn", "TransferFcn", "DiscreteFilter", "Saturate", "RateTransition")
 
 
 @dataclass
@@ -105,6 +107,8 @@ class _Tracer:
             return {"1": self.number(block, "Value", "1")}
         if kind == "Gain":
             gain = self.number(block, "Gain", "1")
+            if gain == 0.0:
+                return {}
             return {k: gain * v for k, v in self.input(block, 1, depth).items()}
         if kind == "Sum":
             return self.sum(block, depth)
@@ -117,6 +121,11 @@ class _Tracer:
                 raise NotEvaluated(f"block {block.name!r} takes another component of the motion")
             found = self.input(block, 1, depth)
             return {name.removesuffix(" of six"): value for name, value in found.items()}
+        if kind in _AT_REST and not any(self.input(block, 1, depth).values()):
+            limits = [self.number(block, f"{side}Limit", "0") for side in ("Lower", "Upper")]
+            if kind == "Saturate" and not limits[0] <= 0.0 <= limits[1]:
+                raise NotEvaluated(f"the limits of block {block.name!r} leave zero out")
+            return {}
         raise NotEvaluated(f"block {block.name!r} ({kind}) is not known here")
 
     def input(self, block: Block, number: int, depth: int) -> dict[str, float]:
@@ -143,14 +152,19 @@ class _Tracer:
 
     def product(self, block: Block, depth: int) -> dict[str, float]:
         signs = block.parameters.get("Inputs", "2")
-        if signs not in ("2", "**"):
-            raise NotEvaluated(f"block {block.name!r} divides, or has more than two factors")
-        first, second = (self.input(block, number, depth) for number in (1, 2))
-        if set(second) != {"1"}:
+        signs = {"2": "**"}.get(signs, signs)
+        if signs not in ("**", "*/"):
+            raise NotEvaluated(f"block {block.name!r} divides by its first, or has other factors")
+        first = self.input(block, 1, depth)
+        if not any(first.values()):
+            return {}
+        second = self.input(block, 2, depth)
+        if signs == "**" and set(second) != {"1"}:
             first, second = second, first
         if set(second) != {"1"}:
-            raise NotEvaluated(f"block {block.name!r} multiplies two motions")
-        return {name: value * second["1"] for name, value in first.items()}
+            raise NotEvaluated(f"block {block.name!r} has no constant factor")
+        factor = second["1"] if signs == "**" else 1.0 / second["1"]
+        return {name: value * factor for name, value in first.items()}
 
     def bus(self, block: Block, port: str) -> dict[str, float]:
         driver = block.drivers.get("in:1")

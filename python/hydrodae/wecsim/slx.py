@@ -144,18 +144,35 @@ class _Reader:
         home = folder if folder.endswith("systems") else f"{folder}/systems"
         return self.archive.xml(str(PurePosixPath(home) / f"{reference}.xml")), home
 
-    def _system(self, system: ElementTree.Element, path: str, names: str, folder: str) -> None:
-        """Enter a system; path: block numbers of the subsystems, names: their names."""
+    def _system(
+        self,
+        system: ElementTree.Element,
+        path: str,
+        names: str,
+        folder: str,
+        choice: str = "",
+    ) -> None:
+        """Enter a system; path: block numbers of the subsystems, names: their names.
+
+        Of a variant subsystem only the subsystem is entered whose label is `choice`.
+        """
         system, folder = self._opened(system, folder)
         inside: list[tuple[str, str, str]] = []
+        active: list[str] = []
         for element in system.findall("Block"):
             values = _values(element)
             if values.get("Commented") in ("on", "through"):
+                continue
+            inner = element.find("System") is not None
+            if choice and inner and values.get("VariantControl") != choice:
                 continue
             self._block(element, values, path, names, folder)
             if element.get("BlockType") == "PMIOPort":
                 side = values.get("Side", "Left").lower()
                 inside.append((side, values.get("Port", "1"), element.get("SID", "")))
+            active += [f"{path}/{element.get('SID', '')}"] if choice and inner else []
+        for other in active:
+            self._same_ports(path, other)
         for line in system.findall("Line"):
             self._line(line, path)
         if path:
@@ -184,7 +201,8 @@ class _Reader:
             self.blocks[path, sid] = function
             return
         if child is not None and not source and not _is_wecsim(mask):
-            self._system(child, f"{path}/{sid}", f"{name}/", folder)
+            choice = _choice(values)
+            self._system(child, f"{path}/{sid}", f"{name}/", folder, choice)
             return
         instance = element.find("InstanceData")
         parameters = values | mask | ({} if instance is None else _values(instance))
@@ -204,6 +222,20 @@ class _Reader:
             if e.get("BlockType") == "Inport"
         ]
         return [name for _, name in sorted(found)]
+
+    def _same_ports(self, outer: str, inner: str) -> None:
+        """Join the ports of a variant subsystem with those of its active choice, by their names."""
+        ports = [(key, b) for key, b in self.blocks.items() if b.kind in ("Inport", "Outport")]
+        path, _, sid = inner.rpartition("/")
+        for key, block in ports:
+            for other, port in ports if key[0] == inner else ():
+                if other[0] != outer or (port.kind, port.own) != (block.kind, block.own):
+                    continue
+                number = block.parameters.get("Port", "1")
+                if block.kind == "Inport":
+                    self.signals.append(((*other, "out:1"), (path, sid, f"in:{number}")))
+                else:
+                    self.signals.append(((path, sid, f"out:{number}"), (*other, "in:1")))
 
     def _copy(self, block: Block, system: ElementTree.Element, folder: str) -> None:
         """Find what a copy of a block of WEC-Sim is by its joint, and where its ports are."""
@@ -310,6 +342,12 @@ class _Reader:
             else:
                 return None
         return None
+
+
+def _choice(values: dict[str, str]) -> str:
+    """Label of the active choice of a variant subsystem; empty for other blocks."""
+    labelled = values.get("VariantControlMode") == "label" and values.get("Variant") == "on"
+    return values.get("LabelModeActiveChoice", "") if labelled else ""
 
 
 def _is_wecsim(mask: dict[str, str]) -> bool:

@@ -68,6 +68,15 @@ class Link:
 
 
 @dataclass
+class Cable:
+    """A cable: its block, its entries, and the groups of base and follower."""
+
+    block: Block
+    item: Item
+    groups: tuple[int, int]
+
+
+@dataclass
 class Group:
     """What moves as one: bodies welded together, the ground, or a frame without a body."""
 
@@ -90,6 +99,7 @@ class Topology:
         Body names by their number, from the blocks.
     flexible : list of (Block, int)
         Blocks of bodies with generalised modes, and their numbers.
+    cables : list of Cable
     """
 
     groups: dict[int, Group]
@@ -97,6 +107,7 @@ class Topology:
     moorings: list[tuple[Block, int]]
     names: dict[int, str]
     flexible: list[tuple[Block, int]] = field(default_factory=list)
+    cables: list[Cable] = field(default_factory=list)
 
 
 def plain_name(text: str, fallback: str) -> str:
@@ -191,6 +202,9 @@ class _Finder:
             return
         if block.library == "WECSim_Lib_PTOSim":
             return  # what its items are for, the links find out
+        if kind == "Cable":
+            self._cable(block)
+            return
         core = kind.partition(" PTO")[0]
         if core not in (*JOINTS, "Universal"):
             text = f"{block.library.replace('WECSim_Lib_', '')} {kind}"
@@ -210,6 +224,17 @@ class _Finder:
         self.topology.links.append(
             Link(block, item, core, base, follower, is_pto, "Actuation" in kind)
         )
+
+    def _cable(self, block: Block) -> None:
+        item = self._item(block, "cable")
+        nets = [block.nets.get(port) for port in _SIDES]
+        base, follower = (None if net is None else self._group_number(net) for net in nets)
+        if item is None:
+            return
+        if base is None or follower is None:
+            self._left_out(block, f"{item.title}: one of its ends hangs on nothing", "cable")
+            return
+        self.topology.cables.append(Cable(block, item, (base, follower)))
 
     def _sides(self, block: Block) -> tuple[int | None, int | None]:
         ports = _SIDES[::-1] if block.kind == _SWAPPED else _SIDES
@@ -233,6 +258,7 @@ class _Finder:
         topology = self.topology
         while True:
             ends = [end for link in topology.links for end in (link.base, link.follower)]
+            ends += [end for cable in topology.cables for end in cable.groups]
             loose = [
                 key
                 for key, group in topology.groups.items()
@@ -247,6 +273,10 @@ class _Finder:
                     part = "pto" if link.is_pto else "joint"
                     self._left_out(link.block, f"{link.item.title}: carries no body", part)
                     topology.links.remove(link)
+            for cable in list(topology.cables):
+                if set(cable.groups) & set(loose):
+                    self._left_out(cable.block, f"{cable.item.title}: holds no body", "cable")
+                    topology.cables.remove(cable)
             topology.moorings = [pair for pair in topology.moorings if pair[1] not in loose]
 
     def _item(self, block: Block, kind: str) -> Item | None:

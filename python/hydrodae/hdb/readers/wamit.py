@@ -276,7 +276,7 @@ def _radiation(
 ) -> tuple[Array, Array, Array]:
     """Frequencies, 0 and inf among them, and dimensionless A, B (nw, n, n) of the modes kept."""
     modes, rows = motions.kept, _of_modes(run.radiation, motions.kept)
-    omega = to_omega(rows, rows.waves[:, 0], setting)
+    omega = to_omega(rows.waves[:, 0], setting)
     added, damping = rows.values.T
     at, usual = np.unique(omega), np.isfinite(omega) & (omega > 0.0)
     lacking = np.flatnonzero(usual & np.isnan(damping))
@@ -315,7 +315,7 @@ def _forces(
     if rows.path.suffix.lower() != ".out":
         check_parts(rows, findings)
     rows = _of_modes(rows, motions.kept)
-    at = to_omega(rows, rows.waves[:, 0], setting)
+    at = to_omega(rows.waves[:, 0], setting)
     usual = np.isfinite(at) & (at > 0.0)
     rows, at = rows.where(usual), at[usual]
     grid, heading = np.unique(at), np.unique(rows.headings)

@@ -16,6 +16,7 @@ import numpy as np
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.readers.text import NUMBER, leading, number, read_lines, read_text
+from hydrodae.hdb.readers.wamit_tables import FIRST
 from hydrodae.support.arrays import Array
 from hydrodae.support.naming import names_file
 
@@ -180,14 +181,21 @@ def _steps(count: int, numbers: list[float]) -> Array:
     return np.asarray(numbers[0] + numbers[1] * np.arange(-count, dtype=float))
 
 
+@names_file
 def _cfg(path: Path, control: Control) -> None:
+    """Read a configuration file: what the periods are (0 is 1), and the numbers of new modes."""
     found = {"IPEROUT": 1, "IPERIN": 1}
-    for line in read_lines(path):
+    for count, line in enumerate(read_lines(path), start=1):
         if stated := re.match(r"\s*(IPEROUT|IPERIN)\s*=\s*(\d+)", line, re.IGNORECASE):
-            found[stated[1].upper()] = int(stated[2])
+            key, option = stated[1].upper(), int(stated[2]) or 1
+            if option not in FIRST:
+                raise DatabaseError(f"{key} = {option}: expected 1 to {max(FIRST)}").about(
+                    "format", key, line=count
+                )
+            found[key] = option
         if stated := re.match(r"\s*NEWMDS\s*(?:\((\d+)\))?\s*=\s*(\d+)", line, re.IGNORECASE):
             control.new_modes[int(stated[1] or 1)] = int(stated[2])
-    control.first_column, control.first_input = found["IPEROUT"] or 1, found["IPERIN"] or 1
+    control.first_column, control.first_input = found["IPEROUT"], found["IPERIN"]
 
 
 @names_file

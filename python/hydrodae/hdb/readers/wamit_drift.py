@@ -83,7 +83,7 @@ def _entries(
     if not kept.all():
         text = f"{path.name}: {(~kept).sum()} lines of negative modes, in other axes: left out"
         findings.append(Finding("info", "second order", text))
-    omega = np.column_stack([to_omega(rows, first, setting) for first in rows.waves.T])
+    omega = np.column_stack([to_omega(first, setting) for first in rows.waves.T])
     kept &= np.all(np.isfinite(omega) & (omega > 0.0), axis=1)
     rows, omega = rows.where(kept), omega[kept]
     if not rows.lines.size:

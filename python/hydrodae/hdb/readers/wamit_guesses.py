@@ -204,7 +204,7 @@ def _apart(rows: Rows, heave: Array, setting: Setting) -> float:
     if len(heave) < ROWS:
         return np.inf
     depth, gravity = setting.depth, setting.gravity
-    omega = to_omega(rows, heave[:, 0], setting)
+    omega = to_omega(heave[:, 0], setting)
     k, speed = wavenumber(omega, depth, gravity), group_velocity(omega, depth, gravity)
     implied = k * gravity * setting.length * heave[:, 2] / (4.0 * omega * speed)
     return float(np.median(np.abs(np.log(implied / heave[:, 1]))))
@@ -213,7 +213,7 @@ def _apart(rows: Rows, heave: Array, setting: Setting) -> float:
 def _fit(radiation: Rows, setting: Setting) -> float:
     """Correlation of A with what B implies if the first column means that; 0 if it is another."""
     rows = radiation.table
-    omega = to_omega(radiation, rows[:, 0], setting)
+    omega = to_omega(rows[:, 0], setting)
     usual = np.isfinite(omega) & (omega > 0.0) & (rows[:, 1] == rows[:, 2])
     usual &= (np.abs(rows[:, 3:5]) < LARGEST).all(axis=1)
     grid = np.unique(omega[usual])
@@ -276,7 +276,7 @@ def _omega(asked: Asked, kind: int, rows: Rows, setting: Setting) -> Array:
     if kind == WAVELENGTH:
         found = np.asarray(frequency(2.0 * np.pi / values, setting.depth, setting.gravity))
     elif kind in FIRST:
-        found = to_omega(rows, values, replace(setting, first_column=kind))
+        found = to_omega(values, replace(setting, first_column=kind))
     else:
         return np.zeros(0)
     return np.unique(found)

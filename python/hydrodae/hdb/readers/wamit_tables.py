@@ -33,27 +33,16 @@ COLUMNS = {
 FIRST = {1: "period", 2: "frequency", 3: "wavenumber of deep water", 4: "wavenumber"}
 
 
-def to_omega(rows: Rows, first: Array, setting: Setting) -> Array:
+def to_omega(first: Array, setting: Setting) -> Array:
     """Turn what stands in the first column of a file (m,) into frequencies [rad/s].
 
     Parameters
     ----------
-    rows : Rows
-        The file, for the error message.
     first : (m,) array
     setting : Setting
-        What the column holds, the length scale and the water.
-
-    Raises
-    ------
-    DatabaseError
-        Another option than those of `FIRST`.
+        What the column holds, of `FIRST`, the length scale and the water.
     """
     option, omega, usual = setting.first_column, np.empty_like(first), first > 0.0
-    if option not in FIRST:
-        raise DatabaseError(f"IPEROUT = {option} in the .cfg beside it: expected 1 to 4").about(
-            "format", "IPEROUT", file=rows.path
-        )
     if option == 1:
         omega[usual] = 2.0 * np.pi / first[usual]
         omega[~usual] = np.where(first[~usual] == 0.0, np.inf, 0.0)
