@@ -12,7 +12,7 @@ MatrixX solve_square(const MatrixX& A, const MatrixX& B) {
   return Eigen::PartialPivLU<MatrixX>(A).solve(B);
 }
 
-Eigen::MatrixXcd solve_square(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B) {
+Eigen::MatrixXcd solve_complex(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B) {
   return Eigen::PartialPivLU<Eigen::MatrixXcd>(A).solve(B);
 }
 

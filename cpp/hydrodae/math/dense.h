@@ -14,7 +14,7 @@ inline constexpr double by_rounding = -1.0;
 
 /// Solution X of A X = B, by an LU decomposition with partial pivoting. A is square and regular.
 MatrixX solve_square(const MatrixX& A, const MatrixX& B);
-Eigen::MatrixXcd solve_square(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B);
+Eigen::MatrixXcd solve_complex(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B);
 
 Eigen::MatrixXcd product(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B);
 

@@ -94,11 +94,11 @@ struct Linear {
     if (const Index n = m.state_by_state.rows()) {
       const Eigen::MatrixXcd states = iw * MatrixX::Identity(n, n) - m.state_by_state;
       Z -= product(m.load_by_state.cast<Complex>(),
-                   solve_square(states, m.state_by_xi + iw * m.state_by_rate));
+                   solve_complex(states, m.state_by_xi + iw * m.state_by_rate));
     }
     const Eigen::MatrixXcd wide = map.cast<Complex>();
     const Eigen::MatrixXcd own = congruence(free, Z) + iw * congruence(map, H);
-    return product(wide, solve_square(own, product(wide.transpose(), force)));
+    return product(wide, solve_complex(own, product(wide.transpose(), force)));
   }
 };
 
