@@ -238,7 +238,7 @@ def test_what_the_case_does_not_hold_is_listed(two_bodies: Path, tmp_path: Path,
     assert "model.slx, block 'PTO': force of pto(1) from Simulink" in out
     assert f"next: hydrodae run {case}" in out
     notes = hydrodae.run(Path(case) / "case.toml", set={"solver.end_time": 1.0}).notes
-    for part in ("block 'Rope': Cables Cable", "body(1).unknownField", "force of pto(1)"):
+    for part in ("block 'Rope': cable(1)", "body(1).unknownField", "force of pto(1)"):
         assert any(note.startswith("missing in the case: ") and part in note for note in notes)
 
 

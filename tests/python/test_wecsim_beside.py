@@ -97,6 +97,14 @@ def test_a_variable_without_a_value_is_named_where_it_is_used(tmp_path: Path) ->
     assert (simu.get("endTime"), simu.get("dt"), simu.get("rampTime")) == (6.0, None, None)
 
 
+@pytest.mark.parametrize(
+    ("text", "kind"), [("x(1,:) = f(1);", "not needed"), ("x{1} = f(1);", "left out")]
+)
+def test_an_element_without_a_value_is_named(tmp_path: Path, text: str, kind: str) -> None:
+    (remark,) = read(tmp_path, f"x = [1 2];\n{text}\n").remarks.items
+    assert (remark.kind, remark.place) == (kind, "wecSimInputFile.m:3")
+
+
 def test_variables_of_a_script_of_the_user_are_defined(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +11,21 @@ import numpy as np
 from hydrodae.errors import CaseError
 from hydrodae.wecsim.m_arrays import elements, meshgrid, with_elements
 from hydrodae.wecsim.m_beside import loaded, script
+from hydrodae.wecsim.m_blocks import (
+    OPENERS,
+    assignment,
+    cases_of,
+    end_of,
+    field_of,
+    is_equal,
+    number_in,
+    several_names,
+    shown,
+    split_arguments,
+    target_of,
+    without_first,
+    without_newlines,
+)
 from hydrodae.wecsim.m_text import NotEvaluated, Statement, Token, statements, understood
 from hydrodae.wecsim.m_values import Expression
 from hydrodae.wecsim.objects import Entry, InputFile, Item
@@ -37,7 +52,6 @@ _MOST_LOOPS = 10_000
 _MOST_STATEMENTS = 10 * _MOST_LOOPS
 #: Most scripts that call each other.
 _MOST_SCRIPTS = 10
-_OPENERS = ("if", "for", "while", "switch", "function", "try", "parfor")
 #: Statements without an effect on the model.
 _IDLE = ("clear clearvars clc close format hold warning disp fprintf addpath end save").split()
 
@@ -90,9 +104,9 @@ def calls(path: Path, names: Collection[str]) -> list[list[Any]]:
     read = read_input(path)
     found = []
     for part in statements(path.read_text(encoding="utf-8", errors="replace")):
-        right = part.tokens[(_assignment(part.tokens) or -1) + 1 :]
+        right = part.tokens[(assignment(part.tokens) or -1) + 1 :]
         if len(right) > 2 and right[0].text in names and right[1].text == "(":
-            found.append([_Run(read).argument(tokens) for tokens in _split(right[2:-1])])
+            found.append([_Run(read).argument(tokens) for tokens in split_arguments(right[2:-1])])
     return found
 
 
@@ -102,7 +116,7 @@ def leading_variables(path: Path) -> dict[str, Entry]:
     if not parts or parts[0].tokens[0].text != "function":
         return {}
     body = parts[1:]
-    end = next((k for k, p in enumerate(body) if p.tokens[0].text in _OPENERS), len(body))
+    end = next((k for k, p in enumerate(body) if p.tokens[0].text in OPENERS), len(body))
     read = InputFile(path)
     _Run(read).block(body[:end], 0, True)
     return read.variables
@@ -131,8 +145,8 @@ class _Run:
                 at = self._loop(parts, at)
             elif word == "switch" and live:
                 at = self._switch(parts, at)
-            elif word in _OPENERS:
-                end = _end_of(parts, at)
+            elif word in OPENERS:
+                end = end_of(parts, at)
                 if live:
                     why = f"the {word} block is not carried out"
                     self._unread(parts[at:end], self._skipped(parts[at], why))
@@ -144,9 +158,9 @@ class _Run:
 
     def _loop(self, parts: list[Statement], at: int) -> int:
         """Carry out a loop over the columns of a row of numbers; returns its end."""
-        end = _end_of(parts, at)
-        tokens = _condition(parts[at].tokens[1:])
-        equals = _assignment(tokens)
+        end = end_of(parts, at)
+        tokens = without_newlines(parts[at].tokens[1:])
+        equals = assignment(tokens)
         try:
             if equals != 1:
                 raise NotEvaluated("the head is not understood")
@@ -170,13 +184,13 @@ class _Run:
             now = live and not taken and word in ("if", "elseif", "else")
             if now and word != "else":
                 try:
-                    value = self._value(_condition(statement.tokens[1:]))
+                    value = self._value(without_newlines(statement.tokens[1:]))
                     with understood():
                         now = bool(np.all(value))
                 except NotEvaluated as error:
                     why = f"condition not evaluated ({error}; --define NAME=VALUE sets a variable)"
                     why += ", taken as false"
-                    self._unread(parts[at : _end_of(parts, at)], self._skipped(statement, why))
+                    self._unread(parts[at : end_of(parts, at)], self._skipped(statement, why))
                     now = False
             taken = taken or now
             at = self.block(parts, at + 1, now)
@@ -185,16 +199,15 @@ class _Run:
 
     def _switch(self, parts: list[Statement], at: int) -> int:
         """Carry out the case that a value is equal to, or is in; returns the end."""
-        end = _end_of(parts, at)
+        end = end_of(parts, at)
         try:
-            value = self._value(_condition(parts[at].tokens[1:]))
-            for begin in _cases(parts, at, end):
-                tokens = _condition(parts[begin].tokens[1:])
+            value = self._value(without_newlines(parts[at].tokens[1:]))
+            for begin in cases_of(parts, at, end):
+                tokens = without_newlines(parts[begin].tokens[1:])
                 other = parts[begin].tokens[0].text == "otherwise"
                 wanted = value if other else self._value(tokens)
-                if any(
-                    _equal(value, one) for one in (wanted if isinstance(wanted, list) else [wanted])
-                ):
+                listed = wanted if isinstance(wanted, list) else [wanted]
+                if any(is_equal(value, one) for one in listed):
                     self.block(parts[:end], begin + 1, True)
                     break
         except NotEvaluated as error:
@@ -203,7 +216,7 @@ class _Run:
         return end
 
     def _statement(self, statement: Statement) -> None:
-        equals = _assignment(statement.tokens)
+        equals = assignment(statement.tokens)
         try:
             with understood():
                 if equals is not None:
@@ -215,17 +228,18 @@ class _Run:
             if equals is None or not self._forget(statement.tokens[:equals]):
                 self._unread([statement], self._skipped(statement, f"{why} ({error})"))
             else:
-                text = (
-                    f"{_shown(statement)}: {why} ({error}); what is made of it is named beside it"
-                )
+                text = f"{shown(statement)}: {why} ({error}); what is made of it is named beside it"
                 self.read.remarks.not_needed(self._place(statement), text)
 
     def _forget(self, left: tuple[Token, ...]) -> bool:
         """Take the values of variables away that an assignment is to; whether all are variables."""
-        inside = _split(left[1:-1]) if left[0].text == "[" else iter([left])
-        targets = [_target(tokens) for tokens in inside]
+        inside = split_arguments(left[1:-1]) if left[0].text == "[" else iter([left])
+        try:
+            targets = [target_of(tokens) for tokens in inside]
+        except NotEvaluated:
+            return False
         for name, path in targets:
-            if self._is_object(name, path):
+            if name in CONSTRUCTORS.values():
                 return False
             fields = [part for part in path if part[0] != "("]
             self.read.unknown.add(".".join([name, *fields]))
@@ -259,16 +273,16 @@ class _Run:
         """Carry out an assignment, its = at token `equals`."""
         left, right = statement.tokens[:equals], statement.tokens[equals + 1 :]
         line = self._line(statement)
-        if (names := _several(left)) and [t.text for t in right[:2]] == ["meshgrid", "("]:
-            made = meshgrid([self._value(tokens) for tokens in _split(right[2:-1])])
+        if (names := several_names(left)) and [t.text for t in right[:2]] == ["meshgrid", "("]:
+            made = meshgrid([self._value(tokens) for tokens in split_arguments(right[2:-1])])
             for name, value in zip(names, made, strict=False):
                 self._variable(name, [], value, line)
             return
-        name, path = _target(left)
+        name, path = target_of(left)
         constructor = right[0].text if right and right[0].kind == "name" else ""
         if constructor in CONSTRUCTORS:
             self._construct(CONSTRUCTORS[constructor], path, right, statement)
-        elif self._is_object(name, path):
+        elif name in CONSTRUCTORS.values():
             self._set(name, path, self._value(right), line)
         elif constructor == "load" and not path:
             told = loaded(self.read.path.parent, self._value(right[1:]))
@@ -277,27 +291,24 @@ class _Run:
         else:
             self._variable(name, path, self._value(right), line)
 
-    def _is_object(self, name: str, path: list[str]) -> bool:
-        return (name, _number_in(path)) in self.read.items or name in CONSTRUCTORS.values()
-
     def _unread(self, parts: list[Statement], remark: Remark) -> None:
         """Remember the fields of objects that statements set which are not carried out."""
         for part in parts:
-            equals = _assignment(part.tokens)
+            equals = assignment(part.tokens)
             try:
-                name, path = _target(part.tokens[:equals])
-                item = self.read.items.get((name, _number_in(path)))
+                name, path = target_of(part.tokens[:equals])
+                item = self.read.items.get((name, number_in(path)))
             except NotEvaluated:
                 continue
             if item is not None and equals is not None:
-                item.unread.setdefault(_field_of(name, path), remark)
+                item.unread.setdefault(field_of(name, path), remark)
 
     def _construct(
         self, kind: str, path: list[str], right: tuple[Token, ...], statement: Statement
     ) -> None:
-        number = _number_in(path)
+        number = number_in(path)
         arguments: list[Any] = []
-        for tokens in _split(right[2:-1]) if len(right) > 2 else []:
+        for tokens in split_arguments(right[2:-1]) if len(right) > 2 else []:
             arguments.append(self.argument(tokens))
             if arguments[-1] is None:
                 self._skipped(statement, "an argument is not evaluated")
@@ -313,13 +324,13 @@ class _Run:
             return None
 
     def _set(self, kind: str, path: list[str], value: Any, line: int) -> None:
-        number, rest = _number_in(path), path[1:] if path and path[0][0] == "(" else path
+        number, rest = number_in(path), path[1:] if path and path[0][0] == "(" else path
         new = Item(kind, number, line, file=self.read.path.name)
         item = self.read.items.setdefault((kind, number), new)
         fields = [part for part in rest if part[0] != "("]
         if not fields:
             raise NotEvaluated(f"{kind} is not made by its class")
-        name = _field_of(kind, path)
+        name = field_of(kind, path)
         if rest[-1][0] == "(":
             old = item.entries.get(name)
             value = with_elements(None if old is None else old.value, rest[-1], value)
@@ -328,7 +339,7 @@ class _Run:
         item.entries[name] = Entry(value, line)
 
     def _variable(self, name: str, path: list[str], value: Any, line: int) -> None:
-        path = _without_first(path)
+        path = without_first(path)
         if path and path[-1][0] == "(":
             name, old = ".".join([name, *path[:-1]]), None
             if name in self.read.unknown:
@@ -346,7 +357,7 @@ class _Run:
 
     def _look_up(self, name: str, path: tuple[str, ...]) -> Any:
         parts = list(path)
-        number = _number_in(parts)
+        number = number_in(parts)
         item = self.read.items.get((name, number))
         if item is not None:
             parts = parts[1:] if parts and parts[0][0] == "(" else parts
@@ -356,7 +367,7 @@ class _Run:
                 entry = Entry(DEFAULTS[".".join(parts)], 0)
             missing = f"{item.title}.{'.'.join(parts)} has no value yet"
         else:
-            parts = _without_first(parts)
+            parts = without_first(parts)
             index = parts.pop() if parts and parts[-1][0] == "(" else None
             entry = self.read.variables.get(".".join([name, *parts]))
             missing = f"{name} has no value"
@@ -365,128 +376,12 @@ class _Run:
         return entry.value if index is None else elements(entry.value, index)
 
     def _skipped(self, statement: Statement, why: str) -> Remark:
-        return self.read.remarks.left_out(self._place(statement), f"{_shown(statement)}: {why}")
+        return self.read.remarks.left_out(self._place(statement), f"{shown(statement)}: {why}")
 
     def _place(self, statement: Statement) -> str:
         """File and line of a statement."""
         name = self.scripts[-1][0] if self.scripts else self.read.path.name
         return f"{name}:{statement.line}"
-
-
-def _shown(statement: Statement) -> str:
-    return statement.text if len(statement.text) < 70 else statement.text[:67] + "..."
-
-
-def _field_of(kind: str, path: list[str]) -> str:
-    """Name of a field without indices, as the present version of WEC-Sim has it."""
-    return new_name(kind, ".".join(part for part in path if part[0] != "("))
-
-
-def _condition(tokens: tuple[Token, ...]) -> tuple[Token, ...]:
-    return tuple(token for token in tokens if token.kind != "newline")
-
-
-def _end_of(parts: list[Statement], at: int) -> int:
-    depth = 0
-    for index in range(at, len(parts)):
-        word = parts[index].tokens[0].text
-        depth += word in _OPENERS
-        depth -= word == "end"
-        if depth == 0:
-            return index
-    return len(parts)
-
-
-def _cases(parts: list[Statement], at: int, end: int) -> Iterator[int]:
-    """Where the cases of a switch block begin, `otherwise` too, those of inner blocks left out."""
-    inner = at
-    for index in range(at + 1, end):
-        word = parts[index].tokens[0].text
-        if index > inner and word in _OPENERS:
-            inner = _end_of(parts, index)
-        elif index > inner and word in ("case", "otherwise"):
-            yield index
-
-
-def _equal(value: Any, wanted: Any) -> bool:
-    texts = isinstance(value, str), isinstance(wanted, str)
-    return texts[0] == texts[1] and bool(
-        value == wanted if texts[0] else np.array_equal(value, wanted)
-    )
-
-
-def _assignment(tokens: tuple[Token, ...]) -> int | None:
-    """Index of the = of an assignment."""
-    depth = 0
-    for index, token in enumerate(tokens):
-        if token.kind != "operator":
-            continue
-        depth += token.text in "([{"
-        depth -= token.text in ")]}"
-        if token.text == "=" and depth == 0:
-            return index
-    return None
-
-
-def _several(tokens: tuple[Token, ...]) -> list[str]:
-    """Names of ``[X, Y]`` on the left; empty where it is something else."""
-    if len(tokens) < 3 or tokens[0].text != "[" or tokens[-1].text != "]":
-        return []
-    inside = [token for token in tokens[1:-1] if token.text != ","]
-    return [t.text for t in inside] if all(t.kind == "name" for t in inside) else []
-
-
-def _target(tokens: tuple[Token, ...]) -> tuple[str, list[str]]:
-    """Name on the left, and its indices ("(1)") and fields."""
-    if not tokens or tokens[0].kind != "name":
-        raise NotEvaluated("the left side is no name")
-    path: list[str] = []
-    at = 1
-    while at < len(tokens):
-        if tokens[at].text == "." and at + 1 < len(tokens) and tokens[at + 1].kind == "name":
-            path.append(tokens[at + 1].text)
-            at += 2
-        elif tokens[at].text == "(":
-            close = next((i for i in range(at, len(tokens)) if tokens[i].text == ")"), None)
-            if close is None:
-                raise NotEvaluated("')' is missing")
-            path.append("(" + "".join(t.text for t in tokens[at + 1 : close]) + ")")
-            at = close + 1
-        else:
-            raise NotEvaluated("the left side is not understood")
-    return tokens[0].text, path
-
-
-def _without_first(path: list[str]) -> list[str]:
-    """``controller(1).x`` is ``controller.x``: a struct of one element."""
-    return path[1:] if len(path) > 1 and path[0] == "(1)" else path
-
-
-def _number_in(path: list[str]) -> int:
-    """Number of an object from the first index; 1 where there is none."""
-    if path and path[0][0] == "(":
-        inside = path[0].strip("()").split(",")[-1]
-        if not inside.isdecimal() or len(inside) > 9:
-            raise NotEvaluated(f"the index {path[0]} is no number")
-        return int(inside)
-    return 1
-
-
-def _split(tokens: tuple[Token, ...]) -> Iterator[tuple[Token, ...]]:
-    """Arguments between commas."""
-    current: list[Token] = []
-    depth = 0
-    for token in tokens:
-        if token.kind == "operator":
-            depth += token.text in "([{"
-            depth -= token.text in ")]}"
-        if token.text == "," and token.kind == "operator" and depth == 0:
-            yield tuple(current)
-            current = []
-        else:
-            current.append(token)
-    if current:
-        yield tuple(current)
 
 
 def assign(read: InputFile, target: str, value: Any) -> None:
@@ -498,10 +393,10 @@ def assign(read: InputFile, target: str, value: Any) -> None:
         The name is not understood.
     """
     parts = statements(f"{target} = 0;")
-    equals = _assignment(parts[0].tokens) if len(parts) == 1 else None
+    equals = assignment(parts[0].tokens) if len(parts) == 1 else None
     if equals is None:
         raise NotEvaluated(f"{target!r} is no name")
-    name, path = _target(parts[0].tokens[:equals])
+    name, path = target_of(parts[0].tokens[:equals])
     run = _Run(read)
     if name in CONSTRUCTORS.values():
         run._set(name, path, value, 0)
