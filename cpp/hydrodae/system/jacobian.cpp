@@ -36,24 +36,24 @@ template <Part made> struct ValueSink {
   /// Takes the mass matrix that is kept, which accelerations need first; returns false if the axes
   /// of the water have turned.
   bool take_mass(const JacobianWorkspace& ws) {
-    const JacobianParts::Mass& kept = out.mass;
-    if (whole || kept.values.empty() || kept.axes != ws.hydro_axes)
+    const JacobianParts::Mass& stored = out.mass;
+    if (whole || stored.values.empty() || stored.axes != ws.hydro_axes)
       return false;
-    std::copy(kept.values.begin(), kept.values.end(), out.by_yp.begin());
-    slot += kept.visits;
+    std::copy(stored.values.begin(), stored.values.end(), out.by_yp.begin());
+    slot += stored.visits;
     return true;
   }
   /// @param constant  the mass matrix changes with the axes of the water alone
   void keep_mass(const JacobianWorkspace& ws, bool constant) {
-    JacobianParts::Mass& kept = out.mass;
+    JacobianParts::Mass& stored = out.mass;
     if (whole || !constant)
       return;
-    if (kept.axes == ws.hydro_axes) { // axes that turn at each call are not worth a copy
-      kept.values = out.by_yp;
-      kept.visits = slot - first;
+    if (stored.axes == ws.hydro_axes) { // axes that turn at each call are not worth a copy
+      stored.values = out.by_yp;
+      stored.visits = slot - first;
     } else {
-      kept.axes = ws.hydro_axes;
-      kept.values.clear();
+      stored.axes = ws.hydro_axes;
+      stored.values.clear();
     }
   }
 };
