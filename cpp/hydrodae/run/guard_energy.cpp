@@ -7,6 +7,7 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/run/guards.h"
+#include "hydrodae/system/mass.h"
 #include "hydrodae/system/mechanisms.h"
 
 namespace hydrodae::run {
@@ -142,16 +143,21 @@ bool energy_minds_singular_poses(const SolverOptions& options) {
   return !options.energy_guard && guard_at_singular_poses(options) < usual;
 }
 
-/// Energy of errors within the tolerance: 100 rtol m v^2 with the unit speed of the scales.
+/// Energy of errors within the tolerance: 100 rtol m v^2 with the unit speed of the scales. Mass m
+/// includes the added mass, whose kinetic energy is in the balance.
 double energy_of_errors(const system::Regime& s, double rtol, int mechanism) {
   double out = 0.0;
-  for (const system::BodyData& b : s.bodies) {
+  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+    const system::BodyData& b = s.bodies[i];
     if (b.group < 0 || (mechanism >= 0 && b.mechanism != mechanism))
       continue;
+    double mass = b.mass;
+    for (int c = 0; c < 3; ++c)
+      mass = std::max(mass, system::wet_mass(s, static_cast<int>(i), c));
     const double speed = b.length_scale / b.time_scale * s.motion_scale[b.group],
                  full = b.lever / b.time_scale; // its square is that of a fall over the lever
-    out = std::max({out, std::min(100.0 * rtol, 0.1) * b.mass * speed * speed,
-                    rounded_off * b.mass * full * full});
+    out = std::max({out, std::min(100.0 * rtol, 0.1) * mass * speed * speed,
+                    rounded_off * mass * full * full});
   }
   return out;
 }

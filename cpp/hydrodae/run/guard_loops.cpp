@@ -8,6 +8,7 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/run/guards.h"
 #include "hydrodae/run/state.h"
+#include "hydrodae/system/mass.h"
 #include "hydrodae/system/mechanisms.h"
 #include "hydrodae/system/residual.h"
 
@@ -101,7 +102,9 @@ public:
         window_ = std::min(window_, window * b.time_scale);
       for (int k = 0; k < b.n_active; ++k) {
         const int c = b.active[k];
-        mass_[b.u0 - s_.u0 + k] = c < 3 ? b.mass : b.inertia(c - 3, c - 3);
+        mass_[b.u0 - s_.u0 + k] =
+            std::max(system::rigid_mass(b)(c, c),
+                     system::wet_mass(s_, static_cast<int>(&b - s_.bodies.data()), c));
         mechanism_[static_cast<std::size_t>(b.u0 - s_.u0 + k)] = std::max(b.mechanism, 0);
       }
     }

@@ -50,16 +50,6 @@ double highest(Parts parts) {
   return 0.0;
 }
 
-/// Mass plus added mass along one coordinate of a body [kg or kg m2]; zero if it does not move in
-/// the water.
-double mass_along(const Regime& s, const PortData& port, int c) {
-  const BodyData& b = s.bodies[static_cast<std::size_t>(port.body)];
-  for (const HydroBody& hb : s.hydro.bodies)
-    if (hb.body == port.body && hb.moving[c] >= 0)
-      return s.hydro.added_mass.own(s.hydro, hb.moving[c]) + rigid_mass(b)(c, c);
-  return 0.0;
-}
-
 } // namespace
 
 Forcing::Forcing(const Regime& s, double end, double output_step)
@@ -139,7 +129,7 @@ void Forcing::add_waves(const Regime& s) {
       }
       VectorX moved = VectorX::Zero(waves.omega.size()); // squared responses, in levers or rad
       for (int c = 0; c < 6; ++c)
-        if (const double mass = mass_along(s, port, c); mass > 0.0) {
+        if (const double mass = wet_mass(s, port.body, c); mass > 0.0) {
           const VectorX answer =
               response(waves.loads[k].row(c).transpose(), waves.omega, b.time_scale) / mass;
           expect(b, c >= 3, std::sqrt(2.0) * answer.norm());

@@ -15,6 +15,16 @@ inline Matrix6 rigid_mass(const BodyData& b) {
   return out;
 }
 
+/// Mass plus added mass along one coordinate of a body [kg or kg m2]; zero if it does not move in
+/// the water.
+inline double wet_mass(const System& s, int body, int c) {
+  for (const HydroBody& hb : s.hydro.bodies)
+    if (const int u = hb.moving[static_cast<std::size_t>(c)]; hb.body == body && u >= 0)
+      return s.hydro.added_mass.own(s.hydro, u) +
+             rigid_mass(s.bodies[static_cast<std::size_t>(body)])(c, c);
+  return 0.0;
+}
+
 /// Values of a pose table at the pose of its body.
 struct TableHere {
   water::PoseCoordinate<double> pose;
