@@ -235,8 +235,8 @@ LinearModel linearize(const model::Scene& scene) {
     static_cast<water::RadiationKeys&>(*still.hydro) = {};
   }
   system::System system = build::build(still, false);
-  system.hydro.added_mass.moving.setZero();
   system.hydro.added_mass.all.setZero();
+  build::add_shared_mass(still, system.hydro);
   system.hydro.link();
   const auto [y, modes, unstable] = statics::settle(still, system);
   build::note_axes(scene, system);
