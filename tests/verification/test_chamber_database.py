@@ -83,7 +83,8 @@ def piston(folder: Path, area: float, volume: float, column: bool = True) -> hyd
     zero, one = np.zeros((4, 1, 1)), np.ones((4, 1, 1))
     HydroDatabase(
         coordinates, omega, 1e3 * one, zero, np.array([[1e3]]), np.zeros((1, 1)), np.zeros(1),
-        0j * one, 2e4 * one + 0j, {"tube": body}, 1000.0, 10.0, excitation_split=False,
+        zero.astype(complex), (2e4 * one).astype(complex), {"tube": body}, 1000.0, 10.0,
+        excitation_split=False,
     ).write(folder / "hydro.h5")  # fmt: skip
     scene = hydrodae.Scene("a column on a slide", directory=folder)
     scene.hydro(database="hydro.h5", radiation="none")

@@ -30,9 +30,8 @@ struct ModeInitial {
 ///   m q'' + c q' + k q = loads of the water and of attached parts on the shape, and the weight
 ///                         -g e_z.R w on it, w = integral of the shape over the mass
 struct Mode {
-  static constexpr std::string_view doc = "A shape in which a body deforms, whose amplitude is a "
-                                          "further coordinate: a normal mode of the dry body, "
-                                          "or a shape with mass that couples it.";
+  static constexpr std::string_view doc =
+      "A shape in which a body deforms. Its amplitude is a further coordinate of the body.";
   std::string name;
   std::string body;
   double mass = 0.0;
