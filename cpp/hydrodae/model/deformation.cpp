@@ -251,14 +251,6 @@ void check_parts(const Scene& scene) {
                    " is dry: give it the key 'hydro', or leave this one out");
       continue;
     }
-    if (scene.hydro->axes == "yaw")
-      refuse(entry, "body",
-             "a body with modes needs [hydro] axes = \"mean\" or \"body\": the waves on modes do "
-             "not follow its yaw");
-    if (!scene.waves.empty() && scene.sea.phase != "fixed")
-      refuse(entry, "body",
-             "a body with modes needs [sea] phase = \"fixed\": the waves on modes do not follow "
-             "its place");
     if (pose_table(scene, mode.body))
       refuse(entry, "body", "a body with modes has no [[pose_table]]: its tables have no modes");
     const hydro::DatabaseBody* entry_of_body = hydro::find_body(*scene.database, *carrier.hydro);

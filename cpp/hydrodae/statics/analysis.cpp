@@ -189,7 +189,7 @@ void add_water(const Regime& s, const system::Workspace<double>& ws, LinearModel
           return;
         const system::BodyData& b = s.bodies[static_cast<std::size_t>(port.body)];
         std::array<double, element::body_numbers> in;
-        element::write(ws.bodies[static_cast<std::size_t>(port.body)], in.data());
+        element::write(ws.bodies[static_cast<std::size_t>(port.seen())], in.data());
         for (const element::WaterLoad& at : list.laws->by_water(law, in.data())) {
           MatrixX on_all = MatrixX::Zero(s.n_u, 7);
           for (int c = 0; c < b.n_active; ++c)
