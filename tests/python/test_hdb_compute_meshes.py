@@ -113,8 +113,8 @@ def test_the_offered_shift_makes_the_mass_fit(stl, tmp_path):
 
 def test_a_mesh_above_the_water_is_lowered(stl, tmp_path):
     mass = RHO * volume_below(can(), -2.0) / HEIGHT * 2.0
-    with pytest.raises(DatabaseError, match=r"rho V = 0 kg .*can.stl:x=1:z=0 "):
-        given = words(f"{stl}:x=1:z=5", "--mass", f"can={mass:.9g}", "-o", tmp_path / "x.h5")
+    given = words(f"{stl}:x=1:z=5", "--mass", f"can={mass}", "-o", tmp_path / "x.h5")
+    with pytest.raises(DatabaseError, match=r"rho V = 0 kg .*can.stl:z=0:x=1 "):
         call(*given)
 
 

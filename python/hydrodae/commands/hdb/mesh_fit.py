@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 
+import numpy as np
+
 from hydrodae.commands.arguments import parse_numbers
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.bem.coarsening import MOST_CHANGE, fitted, volume_change
@@ -78,7 +80,9 @@ def check_mass(
         shift = shift_to_float(panels, mass / rho)
     except DatabaseError as error:
         raise DatabaseError(f"{fault}; {error}").about("mesh", "mass") from None
-    more = words | {"z": f"{float(words.get('z', '0')) + shift:.6g}"}
+    digits = 5 - int(np.floor(np.log10(np.ptp(panels[..., 2]))))  # of the height, six
+    z = round(float(words.get("z", "0")) + shift, digits) + 0.0
+    more = words | {"z": f"{z:.15g}"}
     text = ":".join([f"{name}={file}", *(f"{key}={value}" for key, value in more.items())])
     raise DatabaseError(
         f"{fault}: is the origin of the file at the centre of gravity? rho V is the mass with "
@@ -128,6 +132,8 @@ def _enough(bodies: list[WettedBody], meshed: set[str], most: int, with_lid: boo
         try:
             now = fitted(bodies, meshed, most, with_lid)
         except DatabaseError:
+            if most > sum(len(body.panels) for body in bodies):
+                raise
             continue
         if all(abs(volume_change(*pair)) <= MOST_CHANGE for pair in zip(bodies, now, strict=True)):
             return most

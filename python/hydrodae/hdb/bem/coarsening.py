@@ -45,17 +45,23 @@ def coarsened(panels: Array, count: int) -> Array:
         fast-simplification is missing, or nothing that encloses water is left.
     """
     simplify = _simplification().simplify
-    triangles = triangles_of(panels)
+    # double body: its water line is no border, whose corners would move inwards
+    triangles = triangles_of(np.concatenate([panels, _reflected(panels)]))
     points, corner = np.unique(triangles.reshape(-1, 3).round(9), axis=0, return_inverse=True)
     # single precision inside: the middle of the hull is the origin, so that no place is lost
     middle = np.append(points[:, :2].mean(axis=0), 0.0)
     places, faces = simplify(
         np.ascontiguousarray(points - middle),
         np.ascontiguousarray(corner.reshape(-1, 3)),
-        target_count=max(count, 4),
+        target_count=2 * max(count, 4),
     )[:2]
     fewer = np.asarray(places, dtype=float)[np.asarray(faces)] + middle
     return immersed(np.concatenate([fewer, fewer[:, 2:]], axis=1))
+
+
+def _reflected(panels: Array) -> Array:
+    """Mirror image across z = 0, its normals out of the body."""
+    return np.asarray(panels[:, [0, 3, 2, 1]] * np.array([1.0, 1.0, -1.0]))
 
 
 def panel_count(body: WettedBody, with_lid: bool) -> int:
