@@ -85,8 +85,8 @@ def check_mass(
     more = words | {"z": f"{z:.15g}"}
     text = ":".join([f"{name}={file}", *(f"{key}={value}" for key, value in more.items())])
     raise DatabaseError(
-        f"{fault}: is the origin of the file at the centre of gravity? rho V is the mass with "
-        f"--body {text} (--cog is counted from the still water, too)"
+        f"{fault}: is the origin of the file at the centre of gravity? Write --body {text} where "
+        "rho V is the mass (--cog is counted from the still water, too)"
     ).about("mesh", "mass")
 
 
