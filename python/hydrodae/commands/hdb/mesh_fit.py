@@ -79,7 +79,7 @@ def check_mass(
     try:
         shift = shift_to_float(panels, mass / rho)
     except DatabaseError as error:
-        raise DatabaseError(f"{fault}; {error}").about("mesh", "mass") from None
+        raise DatabaseError(f"{fault}; {error}").about("mesh", error.subject) from None
     digits = 5 - int(np.floor(np.log10(np.ptp(panels[..., 2]))))  # of the height, six
     z = round(float(words.get("z", "0")) + shift, digits) + 0.0
     more = words | {"z": f"{z:.15g}"}

@@ -43,7 +43,7 @@ def shift_to_float(panels: Array, volume: float) -> float:
     Raises
     ------
     DatabaseError
-        Even the whole surface displaces less.
+        Even the whole surface displaces less, or it has holes and would have to sink.
     """
     low, high = float(panels[..., 2].min()), float(panels[..., 2].max())
     deepest = -high
@@ -52,6 +52,8 @@ def shift_to_float(panels: Array, volume: float) -> float:
     except DatabaseError:  # open at its upper end, which has to stay where it is
         deepest = 0.0
         most = volume_below(panels)
+        if most < volume:
+            raise
     if most < volume:
         raise DatabaseError(
             f"the whole mesh displaces {most:.5g} m3 only, {volume:.5g} m3 are needed: are its "
