@@ -10,7 +10,14 @@ import numpy as np
 
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.bem.lids import pools
-from hydrodae.hdb.bem.modes import by_formula, centers_and_areas, check_names, piston
+from hydrodae.hdb.bem.modes import (
+    Mode,
+    by_formula,
+    centers_and_areas,
+    check_names,
+    displacements,
+    piston,
+)
 from hydrodae.hdb.bem.run import WettedBody
 from hydrodae.hdb.database.coordinates import check_body
 
@@ -75,8 +82,12 @@ def with_own_coordinates(
 
 def _with_formulas(body: WettedBody, formulas: dict[str, str]) -> WettedBody:
     centers, _ = centers_and_areas(body.moving)
-    made = {name: by_formula(text, centers) for name, text in formulas.items()}
-    return replace(body, modes=body.modes | made)
+
+    def made(text: str) -> Mode:
+        corners = displacements(text, body.panels.reshape(-1, 3)).reshape(body.panels.shape)
+        return replace(by_formula(text, centers), corners=corners)
+
+    return replace(body, modes=body.modes | {name: made(text) for name, text in formulas.items()})
 
 
 def _with_pools(body: WettedBody) -> WettedBody:
