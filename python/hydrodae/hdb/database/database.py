@@ -17,7 +17,7 @@ from hydrodae.hdb.database.convolution import moved_kernel
 from hydrodae.hdb.database.radiation_kernel import LIMIT, make_kernel
 from hydrodae.hdb.database.second_order import SecondOrderTable
 from hydrodae.hdb.database.summary import summary
-from hydrodae.hdb.database.tables import Body, Tables
+from hydrodae.hdb.database.tables import Tables
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import bodies_of, modes_of, read_labels
 from hydrodae.support.arrays import Array

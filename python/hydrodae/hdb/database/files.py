@@ -241,7 +241,9 @@ def _read(f: h5py.File) -> dict[str, Any]:
 
 def _read_bodies(f: h5py.File, labels: Iterable[str]) -> dict[str, Body]:
     bodies = {}
-    for name in sorted(bodies_of(labels), key=lambda b: int(read_numbers(f[f"bodies/{b}"], "index", ()))):
+    for name in sorted(
+        bodies_of(labels), key=lambda b: int(read_numbers(f[f"bodies/{b}"], "index", ()))
+    ):
         group = f[f"bodies/{name}"]
         known = "displaced_volume" in group.attrs
         numbers = {

@@ -41,7 +41,7 @@ def solve(state: Computation) -> None:
 
 
 def add_panels(state: Computation) -> None:
-    """Take the `database`; add the panels (n, 4, 3) [m] of each body, and the shapes of its modes."""
+    """Take the `database`; add panels (n, 4, 3) [m] of each body, shapes of its modes."""
     panels = {body.name: body.panels for body in state.bodies}
     shapes = {
         body.name: {
