@@ -8,9 +8,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.python.hdb_command import call
 
 import hydrodae
-from hydrodae.errors import DatabaseError
+from hydrodae.errors import DatabaseError, HydrodaeError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.support.arrays import Array
 from hydrodae.viewer import ViewError, browser
@@ -118,6 +119,23 @@ def test_without_shapes_the_hull_is_rigid_and_the_page_says_so(case: Path) -> No
     )
     asked = hydrodae.view(case, shapes={"barge": "box:length=60:width=10:height=3"}).stage
     assert asked.bodies[0].origin.endswith("the shapes of its modes are not known on what is drawn")
+
+
+def test_shapes_are_added_to_a_database(case: Path) -> None:
+    source, made = case.with_name("hydro.h5"), case.with_name("made.h5")
+    words = [source, "--body", "barge=box:length=60:width=10:draft=2.5", "-o", made]
+    assert call("mesh", *words, "--mode", "barge.hinge=-sign(x)*z/15, 0, abs(x)/15 - 1") == 0
+    body = HydroDatabase.read(made).bodies["barge"]
+    assert body.mesh is not None
+    assert body.mode_shapes is not None
+    wanted = hinge(body.mesh.reshape(-1, 3).round(6)).reshape(body.mesh.shape)
+    np.testing.assert_allclose(body.mode_shapes, [wanted], atol=1e-6)
+    for wrong, message in (
+        ("barge.bend=1", "shapes of bend of 'barge': expected those of its modes hinge"),
+        ("raft.hinge=1", "raft needs its surface, --body raft=WHAT"),
+    ):
+        with pytest.raises(HydrodaeError, match=message):
+            call("mesh", *words, "--mode", wrong)
 
 
 def test_a_database_keeps_its_shapes(case: Path) -> None:

@@ -44,8 +44,8 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         metavar="BODY.NAME=FORMULA",
         action="append",
         default=[],
-        help="shape of a mode of the database on that surface, as in 'hydrodae hdb compute', by "
-        "which 'hydrodae view' bends it; a body takes all of its modes or none",
+        help="shape of a mode on that surface, as in 'hydrodae hdb compute'; 'hydrodae view' bends "
+        "it so. A body takes all of its modes or none",
     )
     mesh.add_argument("-o", "--output", metavar="FILE", help="default: HYDRO.H5 itself")
 

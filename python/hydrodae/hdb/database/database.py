@@ -17,7 +17,7 @@ from hydrodae.hdb.database.convolution import moved_kernel
 from hydrodae.hdb.database.radiation_kernel import LIMIT, make_kernel
 from hydrodae.hdb.database.second_order import SecondOrderTable
 from hydrodae.hdb.database.summary import summary
-from hydrodae.hdb.database.tables import Tables
+from hydrodae.hdb.database.tables import Body, Tables
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import bodies_of, modes_of, read_labels
 from hydrodae.support.arrays import Array
@@ -67,10 +67,7 @@ class HydroDatabase(Tables):
             added_mass_inf_std=self.added_mass_inf_std[square],
             froude_krylov=self.froude_krylov[:, :, i],
             diffraction=self.diffraction[:, :, i],
-            bodies={
-                name: replace(self.bodies[name], **_selected_modes(self, name, labels))
-                for name in keep
-            },
+            bodies={name: _with_selected_modes(self, name, labels) for name in keep},
             kernel=None if self.kernel is None else self.kernel.selected(labels),
             memory=_selected_fits(self.memory, labels),
             second_order={
@@ -286,16 +283,17 @@ class HydroDatabase(Tables):
         return summary(self)
 
 
-def _selected_modes(database: Tables, name: str, labels: Sequence[str]) -> dict[str, Array | None]:
-    """Hydrostatics over the six and the modes among the labels, and the shapes of these."""
+def _with_selected_modes(database: Tables, name: str, labels: Sequence[str]) -> Body:
+    """The body with hydrostatics and shapes of the modes among the labels alone."""
     body, kept = database.bodies[name], modes_of(name, labels)
     if body.mode_stiffness is None or not kept:
-        return {"mode_stiffness": None, "mode_shapes": None}
+        return replace(body, mode_stiffness=None, mode_shapes=None)
     modes = modes_of(name, database.coordinates)
     places = [modes.index(mode) for mode in kept]
     rows = [*range(6), *(6 + place for place in places)]
     shapes = None if body.mode_shapes is None else body.mode_shapes[places]
-    return {"mode_stiffness": body.mode_stiffness[np.ix_(rows, rows)], "mode_shapes": shapes}
+    stiffness = body.mode_stiffness[np.ix_(rows, rows)]
+    return replace(body, mode_stiffness=stiffness, mode_shapes=shapes)
 
 
 def _selected_fits(
