@@ -73,6 +73,15 @@ def test_stiffness_of_a_piston_is_that_of_its_area(coarse: HydroDatabase) -> Non
     assert coarse.hydrostatic_stiffness("owc")[2, 2] == pytest.approx(4.0 * k, rel=1e-9)
 
 
+def test_shapes_are_kept_on_the_surface(coarse: HydroDatabase) -> None:
+    body, names = coarse.bodies["owc"], [c.partition(".")[2] for c in coarse.coordinates[6:]]
+    assert body.mesh is not None
+    assert body.mode_shapes is not None
+    lift = np.broadcast_to([0.0, 0.0, 1.0], body.mesh.shape)
+    for shape, name in zip(body.mode_shapes, names, strict=True):
+        np.testing.assert_array_equal(shape, {"piston": 0.0, "lift": 1.0}[name] * lift)
+
+
 def test_heave_by_formula_is_heave(coarse: HydroDatabase) -> None:
     heave, lift = (coarse.coordinates.index(f"owc.{c}") for c in ("heave", "lift"))
     for table in (coarse.added_mass, coarse.radiation_damping):
