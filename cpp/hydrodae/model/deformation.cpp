@@ -1,11 +1,11 @@
 #include "hydrodae/model/deformation.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "hydrodae/core/text.h"
 #include "hydrodae/hydro/coverage.h"
+#include "hydrodae/math/dense.h"
 #include "hydrodae/model/check.h"
 #include "hydrodae/model/mass.h"
 #include "hydrodae/model/motion.h"
@@ -137,7 +137,7 @@ void check_definite(const Scene& scene, const Body& body) {
   const MatrixX part = M(at, at);
   const VectorX size = part.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const MatrixX scaled = size.asDiagonal() * part * size.asDiagonal();
-  if (Eigen::SelfAdjointEigenSolver<MatrixX>(scaled).eigenvalues()[0] > least_eigenvalue)
+  if (symmetric_eigenvalues(scaled)[0] > least_eigenvalue)
     return;
   const Mode& last = scene.modes[modes.back()];
   refuse(Entry{"mode", last.name},

@@ -7,8 +7,7 @@
 /// horizontal displacement of each body, too. b_m are functions of the body's yaw
 /// (yaw_functions.h): in axes that follow the yaw, waves act with the force of their heading
 /// relative to the body; in other axes b is 1. Pose and yaw of a mode are those of its carrier. w_m
-/// are weights of tables for several poses s (pose_table.h); with one table w is 1. (pose_table.h);
-/// of a body with one table w is 1.
+/// are weights of tables for several poses s (pose_table.h); of a body with one table w is 1.
 
 #include "hydrodae/element/elements.h"
 #include "hydrodae/sea/drifting.h"
