@@ -34,7 +34,7 @@ inline std::shared_ptr<const hydro::Database> random_database(Random& random) {
     h.center_of_buoyancy = points[i] + 0.1 * random.vector();
     for (int k = 0; k < 36; ++k)
       h.stiffness(k) = 10.0 * random();
-    db->bodies.push_back({name, points[i], h, {}, {}});
+    db->bodies.push_back({name, points[i], h, false, {}, {}});
     for (const std::string& dof : dofs)
       db->coordinates.push_back(name + "." + dof);
   }

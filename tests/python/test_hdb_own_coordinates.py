@@ -10,6 +10,7 @@ from scipy.interpolate import CubicSpline
 from tests.errors import refused
 from tests.python.hdb_command import call
 
+import hydrodae
 from hydrodae import hdb
 from hydrodae.commands.hdb.own_coordinates import with_own_coordinates
 from hydrodae.errors import CaseError, DatabaseError
@@ -23,6 +24,7 @@ from hydrodae.hdb.preparation import computing
 RING = ["--body", "owc=ring:radius=0.5:inner=0.25:draft=1", "--cog", "owc=0,0,0"]
 GRID = ["--rho", "1000", "--gravity", "9.80665", "-q"]
 AREA = np.pi * 0.25**2
+STARTER = Path(hydrodae.__file__).parent / "starters" / "owc" / "hydro.h5"
 
 
 def compute(out: Path, *words: str) -> HydroDatabase:
@@ -71,6 +73,15 @@ def test_stiffness_of_a_piston_is_that_of_its_area(coarse: HydroDatabase) -> Non
     # hull and pool together close the water plane
     assert stiffness[2, 2] == pytest.approx(4.0 * k, rel=1e-9)
     assert coarse.hydrostatic_stiffness("owc")[2, 2] == pytest.approx(4.0 * k, rel=1e-9)
+
+
+def test_shapes_are_kept_on_the_surface(coarse: HydroDatabase) -> None:
+    body, names = coarse.bodies["owc"], [c.partition(".")[2] for c in coarse.coordinates[6:]]
+    assert body.mesh is not None
+    assert body.mode_shapes is not None
+    lift = np.broadcast_to([0.0, 0.0, 1.0], body.mesh.shape)
+    for shape, name in zip(body.mode_shapes, names, strict=True):
+        np.testing.assert_array_equal(shape, {"piston": 0.0, "lift": 1.0}[name] * lift)
 
 
 def test_heave_by_formula_is_heave(coarse: HydroDatabase) -> None:
@@ -161,3 +172,12 @@ def test_a_piston_needs_a_pool_and_a_lid(tmp_path: Path) -> None:
     for option in (["--no-lid"], ["--kochin", "4"]):
         with refused("option", "piston"):
             call("compute", *RING, *ends, *option)
+
+
+def test_a_piston_alone_is_read_and_drawn(tmp_path: Path) -> None:
+    alone = HydroDatabase.read(STARTER).select(["owc.piston"])
+    assert hdb.check(alone).of("error") == []
+    alone.write(tmp_path / "hydro.h5")
+    read = hdb.read(tmp_path / "hydro.h5")
+    assert read.coordinates == ("owc.piston",)
+    assert hdb.draw_report(read, hdb.check(read)).axes == []

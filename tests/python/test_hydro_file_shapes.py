@@ -25,7 +25,7 @@ GROUPS = {
 }
 ENTRIES = {head + name: entry for head, group in GROUPS.items() for name, entry in group.items()}
 #: What a run does not look at.
-PYTHON_ONLY = ("added_mass_inf_std", "bodies/sphere/mesh")
+PYTHON_ONLY = ("added_mass_inf_std", "bodies/sphere/mesh", "bodies/sphere/mode_shapes")
 WAVE = """
 [[wave]]
 name = "swell"
@@ -60,14 +60,15 @@ CASES = [
 
 @pytest.fixture(scope="module")
 def whole(repository: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The sphere with its kernel, its fit, a mesh, and its surge under the name of a mode."""
+    """The sphere with its kernel, its fit, a mesh, and its surge as a mode with a shape."""
     path = tmp_path_factory.mktemp("hydro") / "hydro.h5"
     sphere = hdb.read(repository / "cases" / "sphere" / "hydro.h5")
     chosen = sphere.select(["sphere.heave", "sphere.surge"])
     body = replace(chosen.bodies["sphere"], mode_stiffness=np.eye(7))
     labels = ("sphere.heave", "sphere.bend")
     made = replace(chosen, coordinates=labels, bodies={"sphere": body})
-    made.with_meshes({"sphere": np.zeros((3, 4, 3))}).write(path)
+    meshed = made.with_meshes({"sphere": np.zeros((3, 4, 3))})
+    meshed.with_mode_shapes({"sphere": {"bend": np.zeros((3, 4, 3))}}).write(path)
     return path
 
 

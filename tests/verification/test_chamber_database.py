@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -72,3 +73,42 @@ def test_rows_of_modes_that_a_run_does_not_have(reference: Path) -> None:
     assert stiffness is not None
     assert stiffness.shape == (7, 7)
     assert stiffness[6, 6] == pytest.approx(1000.0 * 9.80665 * np.pi * 0.25**2, rel=1e-6)
+
+
+def piston(folder: Path, area: float, volume: float, column: bool = True) -> hydrodae.Scene:
+    """Return a column of 2 m2 with a stiffness of 20 kN/m on a slide, and air above it."""
+    coordinates, omega = ("tube.heave",), np.linspace(0.5, 2.0, 4)
+    statics = hydrodae.hdb.Hydrostatics(4.0, np.array([0.0, 0.0, -1.0]), 2.0, np.zeros(5))
+    body = hydrodae.hdb.Body("tube", np.zeros(3), statics, column=column)
+    zero, one = np.zeros((4, 1, 1)), np.ones((4, 1, 1))
+    HydroDatabase(
+        coordinates, omega, 1e3 * one, zero, np.array([[1e3]]), np.zeros((1, 1)), np.zeros(1),
+        zero.astype(complex), (2e4 * one).astype(complex), {"tube": body}, 1000.0, 10.0,
+        excitation_split=False,
+    ).write(folder / "hydro.h5")  # fmt: skip
+    scene = hydrodae.Scene("a column on a slide", directory=folder)
+    scene.hydro(database="hydro.h5", radiation="none")
+    centre = [0.0, 0.0, 0.0]
+    scene.body("tube", hydro="tube", motion="heave", mass=4e3, center_of_gravity=centre)
+    slide: Any = {"point": centre, "axis": [0.0, 0.0, 1.0]}
+    scene.joint.prismatic("slide", body_a="ground", body_b="tube", **slide)
+    scene.chamber("air", volume=volume)
+    scene.piston("water", chamber="air", joint="slide", area=area)
+    scene.outlet.porous_plug("plug", chamber="air", conductance=1e-4)
+    scene.solver(end_time=1.0)
+    return scene
+
+
+def test_area_of_a_column_on_a_slide(tmp_path: Path) -> None:
+    """Within 2 % of the stiffness, as for a mode; a float may have any pump."""
+    hydrodae.check(piston(tmp_path, 2.03, 10.0))
+    hydrodae.check(piston(tmp_path, 1.0, 10.0, column=False))
+    with pytest.raises(hydrodae.CaseError, match="that of 2 m2 of water") as caught:
+        hydrodae.check(piston(tmp_path, 2.05, 10.0))
+    assert caught.value.key == "piston.water.area"
+
+
+@pytest.mark.parametrize(("height", "noted"), [(0.72, False), (0.7, True)])
+def test_air_to_scale_by_the_cube(tmp_path: Path, height: float, noted: bool) -> None:
+    """1.4 p_a / (rho g h) is 20 at h = 0.709 m."""
+    assert ("times as stiff" in str(hydrodae.check(piston(tmp_path, 2.0, 2.0 * height)))) == noted

@@ -20,6 +20,10 @@ void add_hydro(const model::Scene& scene, system::System& system);
 /// (radiation.cpp). Throws ModelError.
 void add_radiation(const model::Scene& scene, system::System& s);
 
+/// Adds the masses that modes share to the added mass of all coordinates, whose rows that move are
+/// then taken (radiation.cpp): both act along the same axes, with the same momentum.
+void add_shared_mass(const model::Scene& scene, system::HydroData& hydro);
+
 /// Checks that mass plus added mass is positive definite (hydro.cpp). Throws ModelError.
 void check_mass(const system::System& s);
 

@@ -34,6 +34,26 @@ std::vector<std::string> wet_labels(const model::Scene& scene, const system::Hyd
 
 } // namespace
 
+void add_shared_mass(const model::Scene& scene, system::HydroData& h) {
+  for (std::size_t i = 0; i < h.bodies.size(); ++i) {
+    const model::Body& body = scene.bodies[static_cast<std::size_t>(h.bodies[i].body)];
+    const MatrixX M = body.part ? MatrixX() : model::shared_mass(scene, body.name);
+    if (M.isZero(0.0))
+      continue;
+    std::vector<std::pair<Index, int>> at; // row among all coordinates, and column in U
+    for (std::size_t k = i; k < h.bodies.size(); ++k)
+      for (std::size_t c = 0; c < (k == i ? 6 : 1); ++c)
+        if (static_cast<std::size_t>(h.bodies[k].carrier) == i)
+          at.emplace_back(static_cast<Index>(6 * k + c), h.bodies[k].moving[c]);
+    for (std::size_t m = 0; m < at.size(); ++m)
+      for (std::size_t n = 0; n < at.size(); ++n)
+        if (at[n].second >= 0)
+          h.added_mass.all(at[m].first, at[n].second) +=
+              M(static_cast<Index>(m), static_cast<Index>(n));
+  }
+  h.added_mass.moving = h.moving_rows(h.added_mass.all);
+}
+
 void add_radiation(const model::Scene& scene, system::System& s) {
   system::HydroData& h = s.hydro;
   const water::RadiationSource source{*scene.database, model::memory_fit(scene), h,
@@ -46,7 +66,7 @@ void add_radiation(const model::Scene& scene, system::System& s) {
       if (place[k] < 0 && !source.labels[k].empty())
         h.uncovered.push_back(source.labels[k]);
   });
-  h.added_mass.moving = h.moving_rows(h.added_mass.all);
+  add_shared_mass(scene, h);
   h.link();
   check_radiation(scene, s);
 }

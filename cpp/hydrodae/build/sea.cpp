@@ -204,7 +204,9 @@ std::vector<water::Excitation::Body> wave_loads(const model::Scene& scene, const
     const system::BodyData& b = s.bodies[static_cast<std::size_t>(hb.body)];
     const std::vector<const Source*> own = sources.of(i);
     const YawSamples samples = yaw_samples(own[0]->total, 6 * i, meetings[i], all);
-    out.push_back({b.name, hb, b.reference, b.length_scale, samples.functions, {}, {}, {}, {}});
+    const bool mode = static_cast<std::size_t>(hb.carrier) != i;
+    out.push_back(
+        {b.name, hb, b.reference, b.length_scale, mode, samples.functions, {}, {}, {}, {}});
     if (hb.table >= 0)
       out[i].poses = s.hydro.added_mass.tables[static_cast<std::size_t>(hb.table)].axis;
     for (std::size_t pose = 0; pose < own.size(); ++pose)
@@ -297,6 +299,8 @@ void add_sea(const model::Scene& scene, const Sea& sea, system::System& s) {
   for (std::size_t i = 0; i < ports.size(); ++i) {
     ports[i].component = list->type;
     ports[i].body = h.bodies[i].body;
+    if (static_cast<std::size_t>(h.bodies[i].carrier) != i)
+      ports[i].carrier = h.bodies[static_cast<std::size_t>(h.bodies[i].carrier)].body;
   }
   s.elements.push_back({std::move(list), std::move(ports), {}});
 }

@@ -30,7 +30,8 @@ struct DatabaseBody {
   std::string name;
   Vector3 reference_point = Vector3::Zero(); ///< world point about which A, B and F are given [m]
   std::optional<Hydrostatics> hydrostatics;  ///< absent when the source does not hold it
-  std::vector<std::string> modes;            ///< names of its coordinates beyond the rigid six
+  bool column = false;            ///< true: a piston of water inside a hull, no hull itself
+  std::vector<std::string> modes; ///< names of its coordinates beyond the rigid six
   /// Hydrostatic stiffness of the six and the modes (6 + n, 6 + n), with the block of the six as
   /// above.
   MatrixX mode_stiffness;

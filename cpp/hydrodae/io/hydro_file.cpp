@@ -47,6 +47,7 @@ hydro::DatabaseBody read_body(const Input& file, const std::string& name) {
   hydro::DatabaseBody body;
   body.name = name;
   body.reference_point = file.vector3(group, "reference_point");
+  body.column = file.has_attribute(group, "column");
   const std::string stiffness = group + "/hydrostatic_stiffness";
   if (!file.has_object(stiffness) && !file.has_attribute(group, "displaced_volume"))
     return body;

@@ -15,6 +15,16 @@ void check_marker(const Scene& scene, const Marker& marker);
 void check_forces(const Scene& scene);
 void check_morison(const Scene& scene);
 void check_chambers(const Scene& scene);
+
+/// Water below a piston by the database: what it is, and its stiffness rho g S [N/m].
+struct WaterOfPiston {
+  std::string name;
+  double stiffness = 0.0;
+};
+
+/// Water below a piston; empty where the database has neither a mode nor a water column for it.
+std::optional<WaterOfPiston> water_of_piston(const Scene& scene, const air::Piston& piston);
+
 /// Refuses a second model of one effect of the water on a body (claims.h).
 void check_claims(const Scene& scene);
 void check_controller(const Scene& scene, const Controller& controller);

@@ -13,7 +13,7 @@ namespace {
 /// below it, too.
 constexpr double boils = 2000.0;
 
-/// Largest relative difference between the stiffness of a mode and rho g times the area of its
+/// Largest relative difference between the stiffness of the water and rho g times the area of its
 /// piston.
 constexpr double same_area = 0.02;
 
@@ -51,28 +51,49 @@ void check_chamber(const Scene& scene, const air::Chamber& chamber) {
                in_quotes(chamber.name));
 }
 
-/// Checks the water stiffness of a piston mode, rho g S, which must exclude the air.
-void check_stiffness(const Scene& scene, const Entry& entry, const air::Piston& piston) {
-  const Mode& mode = *find_named(scene.modes, *piston.mode);
+/// Stiffness of the water along a mode, by the database.
+std::optional<WaterOfPiston> water_of_mode(const Scene& scene, const Mode& mode) {
   const Body* body = find_named(scene.bodies, mode.body);
-  if (!scene.database || !body || !body->hydro)
-    return;
-  const hydro::DatabaseBody* known = hydro::find_body(*scene.database, *body->hydro);
+  const hydro::DatabaseBody* known =
+      body && body->hydro ? hydro::find_body(*scene.database, *body->hydro) : nullptr;
   if (!known)
-    return; // refused with the body
+    return {}; // dry, or refused with the body
   const auto at = std::find(known->modes.begin(), known->modes.end(), mode.label());
   if (at == known->modes.end())
-    return; // refused with the mode
+    return {}; // refused with the mode
   const Index k = 6 + (at - known->modes.begin());
-  const double has = known->mode_stiffness(k, k),
-               piston_has = scene.database->rho * scene.database->gravity * piston.area;
-  if (std::abs(has - piston_has) > same_area * piston_has)
-    refuse(entry, "area",
-           "the database gives mode " + in_quotes(mode.name) + " the stiffness " +
-               rounded_text(has, 4) +
-               " N/m, and a piston of this area has rho g S = " + rounded_text(piston_has, 4) +
-               " N/m: correct the area, scale the mode to a rise of 1 m, "
-               "or take the stiffness of the air out of the database");
+  return WaterOfPiston{"mode " + in_quotes(mode.name), known->mode_stiffness(k, k)};
+}
+
+/// Heave stiffness of the water column that a joint moves. The area of a float is not that of its
+/// pump, so hulls are not judged.
+std::optional<WaterOfPiston> water_of_joint(const Scene& scene, const Joint& joint) {
+  for (const std::string& name : {joint.body_b, joint.body_a}) {
+    const Body* body = find_named(scene.bodies, name);
+    const hydro::DatabaseBody* known =
+        body && body->hydro ? hydro::find_body(*scene.database, *body->hydro) : nullptr;
+    if (known && known->column && known->hydrostatics)
+      return WaterOfPiston{"body " + in_quotes(name), known->hydrostatics->stiffness(2, 2)};
+  }
+  return {};
+}
+
+/// Checks the area of a piston against the stiffness of its water, rho g S without the air.
+void check_area(const Scene& scene, const Entry& entry, const air::Piston& piston) {
+  const std::optional<WaterOfPiston> water = water_of_piston(scene, piston);
+  if (!water)
+    return;
+  const double weight = scene.database->rho * scene.database->gravity,
+               piston_has = weight * piston.area;
+  if (std::abs(water->stiffness - piston_has) > same_area * piston_has)
+    refuse(
+        entry, "area",
+        "the database gives " + water->name + " the stiffness " +
+            rounded_text(water->stiffness, 4) + " N/m, that of " +
+            rounded_text(water->stiffness / weight, 4) +
+            " m2 of water, and a piston of this area has rho g S = " + rounded_text(piston_has, 4) +
+            " N/m: correct the area, " + (piston.mode ? "scale the mode to a rise of 1 m, " : "") +
+            "or take the stiffness of the air out of the database");
 }
 
 void check_piston(const Scene& scene, const air::Piston& piston) {
@@ -84,6 +105,7 @@ void check_piston(const Scene& scene, const air::Piston& piston) {
     const bool angle = check_motion(scene, entry, *piston.joint, piston.coordinate);
     if (angle && piston.roof)
       refuse(entry, "roof", "is a height in m, and the coordinate is an angle");
+    check_area(scene, entry, piston);
     return;
   }
   if (piston.coordinate)
@@ -92,7 +114,7 @@ void check_piston(const Scene& scene, const air::Piston& piston) {
   for (const air::Piston& other : scene.pistons)
     if (&other != &piston && other.mode == piston.mode)
       refuse(entry, "mode", "piston " + in_quotes(other.name) + " has this mode already");
-  check_stiffness(scene, entry, piston);
+  check_area(scene, entry, piston);
 }
 
 void check_outlet(const Scene& scene, const air::AnyOutlet& outlet) {
@@ -111,6 +133,13 @@ void check_outlet(const Scene& scene, const air::AnyOutlet& outlet) {
 }
 
 } // namespace
+
+std::optional<WaterOfPiston> water_of_piston(const Scene& scene, const air::Piston& piston) {
+  if (!scene.database)
+    return {};
+  return piston.mode ? water_of_mode(scene, *find_named(scene.modes, *piston.mode))
+                     : water_of_joint(scene, *find_named(scene.joints, *piston.joint));
+}
 
 void check_chambers(const Scene& scene) {
   check_air(scene);

@@ -25,8 +25,12 @@ const Body& part_of_mode(const Scene& scene, std::size_t mode);
 /// modes of a body that moves freely there have no share of its momentum.
 bool may_participate(const Scene& scene, const Body& body, std::size_t c);
 
-/// Checks the requirements of the parts: participation for held bodies only, hydrodynamic axes that
-/// do not turn, and a database with the modes. Throws ModelError.
+/// Mass (6 + n, 6 + n) that the n modes of a body share with each other and with its rigid motions;
+/// the diagonal is zero.
+MatrixX shared_mass(const Scene& scene, std::string_view body);
+
+/// Checks the requirements of the parts: masses of one distribution, participation for held bodies
+/// only, hydrodynamic axes that do not turn, and a database with the modes. Throws ModelError.
 void check_parts(const Scene& scene);
 
 /// Label of coordinate c of a body in databases, "barge.heave"; for a mode "barge.bend" along x,

@@ -24,21 +24,21 @@ struct ModeInitial {
 };
 
 /// Table [[mode]]: shape in which a body deforms, with an amplitude q as an additional coordinate
-/// of the body. Shapes are normal modes of the dry body: neither another mode nor a rigid motion
-/// shares their kinetic energy (Newman, Applied Ocean Research 16 (1994) 47-59).
+/// of the body (Newman, Applied Ocean Research 16 (1994) 47-59). Of normal modes of the dry body
+/// neither another mode nor a rigid motion shares the kinetic energy; others give that mass.
 ///
 ///   m q'' + c q' + k q = loads of the water and of attached parts on the shape, and the weight
 ///                         -g e_z.R w on it, w = integral of the shape over the mass
 struct Mode {
-  static constexpr std::string_view doc = "A shape in which a body deforms: a normal mode of the "
-                                          "dry body, whose amplitude is a further "
-                                          "coordinate.";
+  static constexpr std::string_view doc =
+      "A shape in which a body deforms. Its amplitude is a further coordinate of the body.";
   std::string name;
   std::string body;
   double mass = 0.0;
   double stiffness = 0.0;
   double damping = 0.0;
   std::optional<Vector3> participation;
+  std::vector<double> mass_with_modes, mass_with_motions;
   std::optional<std::string> hydro;
   ModeInitial initial;
   const std::string& label() const { return hydro ? *hydro : name; } ///< label in the database
@@ -57,6 +57,14 @@ struct Mode {
          "Participation factors of finite-element programs: the shape, summed over the mass of the "
          "body, along its axes. By these the weight loads the mode. Default: zero, as of normal "
          "modes of a free body."},
+        {"mass_with_modes", &M::mass_with_modes, "kg",
+         "Mass that this mode shares with each mode of the body before it, in their order in the "
+         "case: the product of the shapes, summed over the mass. Default: zero, as of normal "
+         "modes."},
+        {"mass_with_motions", &M::mass_with_motions, "-",
+         "Mass that this mode shares with surge to yaw of the body: the shape [kg] and its moment "
+         "about the centre of gravity [kg m], summed over the mass, along body axes. Default: "
+         "zero, as of normal modes of a free body."},
         {"hydro", &M::hydro, "-",
          "Name of this mode in the hydrodynamic database, without the body; default: the name."},
     };

@@ -342,8 +342,9 @@ std::vector<Finding> look_at_mechanism(const model::Scene& scene, const system::
 
 std::vector<Finding> look_over(const model::Scene& scene, const system::System& s) {
   std::vector<Finding> out = look_at_bodies(scene, s);
-  for (const std::vector<Finding>& more : {look_at_mechanism(scene, s), look_at_sea(scene),
-                                           look_at_headings(scene, s), look_at_hulls(scene)})
+  for (const std::vector<Finding>& more :
+       {look_at_mechanism(scene, s), look_at_sea(scene), look_at_headings(scene, s),
+        look_at_hulls(scene), look_at_chambers(scene)})
     out.insert(out.end(), more.begin(), more.end());
   return out;
 }

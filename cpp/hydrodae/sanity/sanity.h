@@ -53,6 +53,9 @@ std::vector<Finding> look_at_headings(const model::Scene& scene, const system::S
 /// Findings on the size and the freeboard of meshes.
 std::vector<Finding> look_at_hulls(const model::Scene& scene);
 
+/// Findings on the volume of chambers above water columns of the database.
+std::vector<Finding> look_at_chambers(const model::Scene& scene);
+
 /// All findings.
 std::vector<Finding> look_over(const model::Scene& scene, const system::System& system);
 

@@ -189,7 +189,7 @@ void add_water(const Regime& s, const system::Workspace<double>& ws, LinearModel
           return;
         const system::BodyData& b = s.bodies[static_cast<std::size_t>(port.body)];
         std::array<double, element::body_numbers> in;
-        element::write(ws.bodies[static_cast<std::size_t>(port.body)], in.data());
+        element::write(ws.bodies[static_cast<std::size_t>(port.seen())], in.data());
         for (const element::WaterLoad& at : list.laws->by_water(law, in.data())) {
           MatrixX on_all = MatrixX::Zero(s.n_u, 7);
           for (int c = 0; c < b.n_active; ++c)
@@ -235,8 +235,8 @@ LinearModel linearize(const model::Scene& scene) {
     static_cast<water::RadiationKeys&>(*still.hydro) = {};
   }
   system::System system = build::build(still, false);
-  system.hydro.added_mass.moving.setZero();
   system.hydro.added_mass.all.setZero();
+  build::add_shared_mass(still, system.hydro);
   system.hydro.link();
   const auto [y, modes, unstable] = statics::settle(still, system);
   build::note_axes(scene, system);

@@ -128,7 +128,7 @@ template <class Sink> struct Assembly {
   void sparse_law_of_points(const PortData& port, const double* load, const double* values,
                             const element::Elements& laws, Index z);
   void law_states(const double* jacobian, const element::Shape& shape, Index z);
-  void law_in_water(int body, const double* jacobian, bool feels_rates);
+  void law_in_water(const PortData& port, const double* jacobian, bool feels_rates);
 
   void run() {
     if constexpr (whole) {

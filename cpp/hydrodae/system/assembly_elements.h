@@ -229,17 +229,18 @@ void Assembly<Sink>::sparse_law_of_points(const PortData& port, const double* lo
   }
 }
 
-/// Load in the water; the Jacobian is by the tangent coordinates of its body.
+/// Load in the water; the Jacobian is by the tangent coordinates of the body that the law reads.
 template <class Sink>
-void Assembly<Sink>::law_in_water(int body, const double* jacobian, bool feels_rates) {
+void Assembly<Sink>::law_in_water(const PortData& port, const double* jacobian, bool feels_rates) {
+  const int body = port.body, seen = port.seen();
   const Eigen::Map<const Eigen::Matrix<double, 6, 18>> J(jacobian);
   if constexpr (whole)
-    load_by_displacement(body, body, J.template leftCols<6>());
+    load_by_displacement(body, seen, J.template leftCols<6>());
   if (!feels_rates)
     return;
   if constexpr (whole)
-    load_by_velocity(body, body, J.template middleCols<6>(6));
-  load_by_acceleration(body, body, J.template rightCols<6>());
+    load_by_velocity(body, seen, J.template middleCols<6>(6));
+  load_by_acceleration(body, seen, J.template rightCols<6>());
 }
 
 template <class Sink> void Assembly<Sink>::add(const ElementList& list) {
@@ -266,7 +267,7 @@ template <class Sink> void Assembly<Sink>::add(const ElementList& list) {
       law_of_coordinates(port, rows, load, J, shape, z);
       rows += shape.width;
     } else if (shape.in_water()) {
-      law_in_water(port.body, J, shape.feels_rates);
+      law_in_water(port, J, shape.feels_rates);
     } else if (shape.port == Port::on_body) {
       PortGradient<6, 6> d;
       body_gradient(state(port.body), port, in, load, d);

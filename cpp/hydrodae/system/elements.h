@@ -147,7 +147,7 @@ void gather(const Regime& s, const ElementList& list, const Workspace<S>& ws, co
       see_motions<S>(s, ws, port, x, v, rows);
       rows += shape.width;
     } else if (shape.in_water()) {
-      element::write(ws.bodies[port.body], in);
+      element::write(ws.bodies[port.seen()], in);
     } else if (shape.port == element::Port::between) {
       see_markers<S>(s, ws, port, x, v, rows);
       rows += 6;

@@ -143,7 +143,11 @@ struct PortData {
   int motion = -1;       ///< index in System::motions
   int delay = -1;        ///< index in System::delays; -1: no delay
   int body = -1;         ///< index in System::bodies
-  int joint = -1;        ///< index in System::joints; for a motion, its joint
+  /// Body whose state the law of a port in the water reads; -1: `body`. The waves on a mode follow
+  /// the pose of the body that deforms.
+  int carrier = -1;
+  int seen() const { return carrier < 0 ? body : carrier; }
+  int joint = -1; ///< index in System::joints; for a motion, its joint
   /// Index in System::rotations of the rotation that the law reads as a vector; -1: none
   int followed = -1;
   /// Rotation from the body's reference pose to that of the law, a quaternion

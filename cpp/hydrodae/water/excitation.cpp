@@ -31,8 +31,13 @@ template <class S> S* drifting_memory(Index n) {
   return memory.data();
 }
 
-/// Load on the body from f along the hydrodynamic axes; mean axes need only R.
-template <class S> Vec6<S> on_body(HydroAxes axes, const HydroBody& hb, const S* in, Vec6<S> f) {
+/// Load on the body from f along the hydrodynamic axes; mean axes need only R. The amplitude of a
+/// mode has no axes.
+template <class S>
+Vec6<S> on_body(HydroAxes axes, const Excitation::Body& body, const S* in, Vec6<S> f) {
+  const HydroBody& hb = body.wet;
+  if (body.mode)
+    return f;
   if (axes != HydroAxes::mean) {
     const Vec6<S> no_momentum = Vec6<S>::Zero();
     return hydro_load<S>(axes, hb, element::read_body(in), f, no_momentum);
@@ -107,7 +112,7 @@ template <class S> void Excitation::loads(double t, const S* in, S* out) const {
     load.setZero();
     if (body.wet.moves && count() > 0) {
       factors(body, in, b);
-      load = on_body<S>(axes_, body.wet, in, force<S>(t, body, body.moving, in, b, f.data()));
+      load = on_body<S>(axes_, body, in, force<S>(t, body, body.moving, in, b, f.data()));
     }
     in += element::body_numbers;
     out += 6;
@@ -153,7 +158,11 @@ void Excitation::jacobian(double t, const double* in, const double*, double* jac
       factors(body, in, b);
       const Vector6 along = force<double>(t, body, body.moving, in, b, f.data()),
                     still = Vector6::Zero();
-      const HydroLoadGradient d = hydro_load_gradient(axes_, body.wet, state, along, still);
+      HydroLoadGradient d = hydro_load_gradient(axes_, body.wet, state, along, still);
+      if (body.mode) {
+        d.L = Matrix6::Identity();
+        d.by_rotation.setZero();
+      }
       J.middleCols<3>(3) = d.by_rotation;
       if (body.yaw.count > 1) {
         const Yaw<double> psi = yaw<double>(state);
@@ -220,7 +229,7 @@ void Excitation::report(double t, const double* in, const double*, double* loads
     };
     const auto put = [&](const Vector6& along) {
       Eigen::Map<Vector6> load(loads);
-      load = on_body<double>(axes_, body.wet, in, along);
+      load = on_body<double>(axes_, body, in, along);
       loads += 6;
     };
     const Vector6 total = sum(body.moving) + sum(body.still);

@@ -6,9 +6,8 @@
 /// f_m are functions of time; if the phase of the waves moves with the bodies, they depend on the
 /// horizontal displacement of each body, too. b_m are functions of the body's yaw
 /// (yaw_functions.h): in axes that follow the yaw, waves act with the force of their heading
-/// relative to the body; in other axes b is 1. w_m are weights of tables for several poses s
-/// (pose_table.h); with one table w is 1.
-/// (pose_table.h); of a body with one table w is 1.
+/// relative to the body; in other axes b is 1. Pose and yaw of a mode are those of its carrier. w_m
+/// are weights of tables for several poses s (pose_table.h); of a body with one table w is 1.
 
 #include "hydrodae/element/elements.h"
 #include "hydrodae/sea/drifting.h"
@@ -37,6 +36,7 @@ public:
     HydroBody wet;
     Vector3 reference = Vector3::Zero(); ///< centre of gravity in the reference pose [m]
     double length = 1.0;                 ///< ratio of the noise of moments to that of forces [m]
+    bool mode = false; ///< true: a mode, loaded along its amplitude; its pose is its carrier's
     YawFunctions yaw;
     PoseAxis poses;
     Terms moving;        ///< terms of loads along coordinates that move

@@ -14,8 +14,10 @@ from hydrodae.hdb.database.tables import Body as HydroBody
 from hydrodae.hdb.hull.freeboard import freeboard
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.hull.meshes import read_mesh, triangles_of
+from hydrodae.hdb.labels import modes_of
 from hydrodae.support.arrays import Array
 from hydrodae.viewer import shapes
+from hydrodae.viewer.bending import bend
 from hydrodae.viewer.source import Source
 from hydrodae.viewer.stage import Body
 
@@ -53,7 +55,8 @@ def make_bodies(
     for name in wanted:
         check_body(name, [entry["name"] for entry in entries])
     path = source.case.scene.database_path
-    wet = read_database(path)["bodies"] if path else {}
+    database = read_database(path) if path else {"bodies": {}, "coordinates": ()}
+    wet = database["bodies"]
     ends = attachments(tables)
     size = _extent([*(e for at in ends.values() for e in at), *map(_center, entries)])
     made = []
@@ -77,7 +80,11 @@ def make_bodies(
         position = source.values(f"bodies/{name}/position")
         orientation = source.values(f"bodies/{name}/orientation")
         moves = entry.get("motion") != "fixed"
-        made.append(Body(name, center, position, orientation, hull, above, origin, moves, cut))
+        body = Body(name, center, position, orientation, hull, above, origin, moves, cut)
+        hydro = None if "mesh" in entry or name in wanted else wet.get(entry.get("hydro", ""))
+        known = modes_of(entry.get("hydro", ""), database["coordinates"])
+        modes = [mode for mode in tables.get("mode", []) if mode["body"] == name]
+        made.append(bend(body, hydro, known, modes, source))
     return made
 
 

@@ -108,10 +108,12 @@ def camera_of(text: str, frame: Frame) -> tuple[float, float, float]:
 
 def _extremes(body: Body) -> list[Array]:
     """Corners of the box around a body at some samples."""
-    points = np.concatenate([body.surface.reshape(-1, 3), body.above.reshape(-1, 3)])
-    if len(points) == 0:
-        points = body.center[None]
-    box = np.stack([points.min(axis=0), points.max(axis=0)])
+    points = body.corners if len(body.corners) else body.center[None]
+    most = np.abs(body.amplitudes).max(axis=0, initial=0.0)
+    spread = sum(
+        (q * np.abs(s).reshape(-1, 3) for q, s in zip(most, body.shapes, strict=True)), 0.0
+    )
+    box = np.stack([(points - spread).min(axis=0), (points + spread).max(axis=0)])
     corners = np.stack(np.meshgrid(*box.T, indexing="ij"), axis=-1).reshape(-1, 3)
     places = body.places(corners)
     kept = np.unique(np.linspace(0, len(places) - 1, LOOKS).astype(int))

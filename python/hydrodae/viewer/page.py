@@ -163,6 +163,10 @@ def _bodies(stage: Stage, numbers: Numbers) -> list[dict[str, Any]]:
                 "above": numbers.add(body.above),
                 "origin": body.origin,
                 "cut": body.cut,
+                "modes": len(body.shapes),
+                "amplitudes": numbers.add(body.amplitudes),
+                "shapes": numbers.add(body.shapes[:, : len(body.surface)]),
+                "shapes_above": numbers.add(body.shapes[:, len(body.surface) :]),
                 "colour": colour,
             }
         )

@@ -62,10 +62,7 @@ def _bodies(stage: Stage, path: Path) -> Path:
     count = sum(map(len, parts))
     cells = np.arange(3 * count).reshape(count, 3)
     numbers = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
-    places = [
-        body.places(part.reshape(-1, 3)).astype(np.float32)
-        for body, part in zip(stage.bodies, parts, strict=True)
-    ]
+    places = [body.bent().astype(np.float32) for body in stage.bodies]
     points = (np.concatenate([p[i] for p in places]) for i in range(len(stage.time)))
     heights = None
     if stage.sea is not None and any(body.cut for body in stage.bodies):

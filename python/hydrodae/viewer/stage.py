@@ -11,7 +11,7 @@ from hydrodae.support.arrays import Array
 
 @dataclass(frozen=True)
 class Body:
-    """A rigid body.
+    """A body: rigid, or bent by its modes before it moves.
 
     Attributes
     ----------
@@ -32,6 +32,11 @@ class Body:
     cut : str
         Surface that bounds the wetted part on which the pressure acts: "waves" or "still" (z = 0);
         empty if the load of the body does not follow from its surface.
+    amplitudes : (n, j) array
+        Of the modes that bend its surface over time [m].
+    shapes : (j, m + k, 3, 3) array
+        Displacement of the corners of `surface` and `above` per unit of each of them [-], in the
+        reference pose.
     """
 
     name: str
@@ -43,10 +48,24 @@ class Body:
     origin: str
     moves: bool
     cut: str = ""
+    amplitudes: Array = field(default_factory=lambda: np.empty((0, 0)))
+    shapes: Array = field(default_factory=lambda: np.empty((0, 0, 3, 3)))
+
+    @property
+    def corners(self) -> Array:
+        """Corners (3 (m + k), 3) of `surface` and `above` in the reference pose [m]."""
+        return np.concatenate([self.surface, self.above]).reshape(-1, 3)
+
+    def bent(self) -> Array:
+        """World places (n, 3 (m + k), 3) over time of its corners, which its modes move."""
+        if not len(self.shapes):
+            return self.places(self.corners)
+        moved = np.tensordot(self.amplitudes, self.shapes.reshape(len(self.shapes), -1, 3), 1)
+        return self.places(self.corners + moved)
 
     def places(self, points: Array) -> Array:
-        """World places (n, k, 3) over time of points (k, 3) of the reference pose."""
-        arms = np.asarray(points, dtype=float).reshape(-1, 3) - self.center
+        """World places (n, k, 3) over time of points (k, 3) or (n, k, 3) of the reference pose."""
+        arms = np.asarray(points, dtype=float) - self.center
         w, v = self.orientation[:, None, :1], self.orientation[:, None, 1:]
         turned = arms + 2.0 * np.cross(v, np.cross(v, arms) + w * arms)
         return np.asarray(self.position[:, None, :] + turned, dtype=float)

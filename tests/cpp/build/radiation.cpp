@@ -65,7 +65,7 @@ model::Scene row_of_floats(const MatrixX& B, const MatrixX& C) {
     body.mass = 1000.0;
     body.inertia = Vector3::Constant(1000.0);
     body.center_of_gravity = Vector3(10.0 * static_cast<double>(i), 0.0, -0.5);
-    database->bodies.push_back({body.name, body.center_of_gravity, h, {}, {}});
+    database->bodies.push_back({body.name, body.center_of_gravity, h, false, {}, {}});
     database->coordinates.push_back(body.name + ".heave");
     scene.bodies.push_back(body);
   }

@@ -49,7 +49,7 @@ struct Wet {
     database->gravity = 9.81;
     for (std::string_view name : model::coordinate_names)
       database->coordinates.push_back("float." + std::string(name));
-    database->bodies = {{"float", Vector3(0, 0, -1), hydro::Hydrostatics{}, {}, {}}};
+    database->bodies = {{"float", Vector3(0, 0, -1), hydro::Hydrostatics{}, false, {}, {}}};
     database->fits = {fit("large", {"float.surge", "float.heave", "float.pitch"}, 9),
                       fit("small", {"float.pitch", "float.surge", "float.heave"}, 4),
                       fit("heave", {"float.heave"}, 2)};

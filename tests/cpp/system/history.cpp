@@ -24,7 +24,7 @@ model::Scene heaving() {
   db->rho = 1000.0;
   db->gravity = 9.81;
   db->coordinates = {"buoy.heave"};
-  db->bodies.push_back({"buoy", Vector3::Zero(), hydro::Hydrostatics{}, {}, {}});
+  db->bodies.push_back({"buoy", Vector3::Zero(), hydro::Hydrostatics{}, false, {}, {}});
   hydro::RadiationKernel kernel;
   kernel.step = 0.02;
   kernel.inputs = kernel.outputs = db->coordinates;

@@ -12,6 +12,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from hydrodae.commands.arguments import parse_headings, parse_numbers, parse_point
+from hydrodae.commands.hdb.mesh_fit import add_mesh_fit, check_mass, few_enough, masses_of
 from hydrodae.commands.hdb.options import BAD_DATA, DONE, add_grid_options, omega_of, refused, write
 from hydrodae.commands.hdb.own_coordinates import add_own_coordinates, with_own_coordinates
 from hydrodae.commands.options import add_quiet
@@ -69,6 +70,7 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
     compute.add_argument(
         "--no-lid", action="store_true", help="leave irregular frequencies in (faster)"
     )
+    add_mesh_fit(compute)
     add_own_coordinates(compute)
     compute.add_argument(
         "--poses",
@@ -113,11 +115,12 @@ def run(args: argparse.Namespace) -> int:
         water_depth=args.depth,
         lid=not args.no_lid,
         kochin=args.kochin,
+        most_panels=args.most_panels,
     )
     points = dict(parse_point("--cog", text) for text in args.cog)
     for text in args.body:
         _name_of(text)
-    for name in points:
+    for name in [*points, *masses_of(args.mass)]:
         check_body(name, [_name_of(text) for text in args.body])
     if args.poses is None:
         still = Pose("heave", 0.0)
@@ -208,7 +211,10 @@ def _compute_one(
     output: str,
 ) -> int:
     """Compute the database of one pose and write it; the exit code."""
-    bodies = [_body(text, points, args.panel, settings, pose) for text in args.body]
+    masses = masses_of(args.mass)
+    bodies = [_body(text, points, masses, args.panel, settings, pose) for text in args.body]
+    meshed = {_name_of(text) for text in args.body if not _by_formula(text)}
+    bodies = few_enough(bodies, meshed, args.most_panels, settings.lid)
     bodies = with_own_coordinates(bodies, pistons=args.piston, formulas=args.mode)
     statics = computing.hydrostatics_of(bodies)
     for body in bodies:
@@ -251,6 +257,7 @@ def _name_of(text: str) -> str:
 def _body(
     text: str,
     points: dict[str, list[float]],
+    masses: dict[str, float],
     size: float | None,
     settings: bem.Settings,
     pose: Pose,
@@ -262,6 +269,10 @@ def _body(
     axes = words.get("mirror", "")
     try:
         point = np.array(points[name], dtype=float)
+        if name in masses:
+            rest = _panels(name, first, dict(words), size, settings)
+            offer = (name, "" if _by_formula(text) else first, words)
+            check_mass(rest, masses[name], settings.rho, offer)
         if first in shapes.SHAPES:  # built as far as they are wet
             panels = immersed(_panels(name, first, pose.of_shape(first, words), size, settings))
         else:
@@ -276,6 +287,11 @@ def _body(
             )
         raise error.within(f"body {name}", hint) from None
     return bem.WettedBody(name, panels, pose.of_point(point))
+
+
+def _by_formula(text: str) -> bool:
+    first, _ = _words(_name_of(text), text.partition("=")[2])
+    return first == "revolution" or first in shapes.SHAPES
 
 
 def _words(name: str, what: str) -> tuple[str, dict[str, str]]:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from hydrodae.commands.hdb.own_coordinates import at_corners, read_mode
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.bem import shapes
 from hydrodae.hdb.bem.cutting import immersed
@@ -38,6 +39,14 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         required=True,
         help="a shape or a mesh file, as in 'hydrodae hdb compute'; may be repeated",
     )
+    mesh.add_argument(
+        "--mode",
+        metavar="BODY.NAME=FORMULA",
+        action="append",
+        default=[],
+        help="shape of a mode on that surface, as in 'hydrodae hdb compute'; 'hydrodae view' bends "
+        "it so. A body takes all of its modes or none",
+    )
     mesh.add_argument("-o", "--output", metavar="FILE", help="default: HYDRO.H5 itself")
 
 
@@ -47,8 +56,16 @@ def run(args: argparse.Namespace) -> int:
     panels = dict(_surface(text) for text in args.body)
     for name in panels:
         check_body(name, database.bodies)
+    shapes: dict[str, dict[str, Array]] = {}
+    for text in args.mode:
+        body, mode, formula = read_mode(text)
+        if body not in panels:
+            raise CaseError(f"--mode {text!r}: {body} needs its surface, --body {body}=WHAT")
+        shapes.setdefault(body, {})[mode] = at_corners(formula, panels[body])
     target = args.output or args.database
-    database.with_meshes(panels).write(target, single=is_single(args.database))
+    database.with_meshes(panels).with_mode_shapes(shapes).write(
+        target, single=is_single(args.database)
+    )
     shown = ", ".join(f"{name} ({len(found)} panels)" for name, found in panels.items())
     print(f"written: {target} with the surfaces of {shown}")
     return 0

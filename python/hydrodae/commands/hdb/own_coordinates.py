@@ -10,9 +10,17 @@ import numpy as np
 
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.bem.lids import pools
-from hydrodae.hdb.bem.modes import by_formula, centers_and_areas, check_names, piston
+from hydrodae.hdb.bem.modes import (
+    Mode,
+    by_formula,
+    centers_and_areas,
+    check_names,
+    displacements,
+    piston,
+)
 from hydrodae.hdb.bem.run import WettedBody
 from hydrodae.hdb.database.coordinates import check_body
+from hydrodae.support.arrays import Array
 
 
 def add_own_coordinates(compute: argparse.ArgumentParser) -> None:
@@ -62,10 +70,7 @@ def with_own_coordinates(
         )
     given: dict[str, dict[str, str]] = {}
     for text in formulas:
-        label, equals, formula = text.partition("=")
-        body, _, name = label.partition(".")
-        if not equals or not name:
-            raise CaseError(f"--mode {text!r}: expected BODY.NAME=FORMULA")
+        body, name, formula = read_mode(text)
         check_body(body, [one.name for one in made])
         names = [*given.setdefault(body, {}), *next(b for b in made if b.name == body).modes, name]
         check_names(body, names)
@@ -73,10 +78,28 @@ def with_own_coordinates(
     return [_with_formulas(body, given.get(body.name, {})) for body in made]
 
 
+def read_mode(text: str) -> tuple[str, str, str]:
+    """Return body, name and formula of a text BODY.NAME=FORMULA; raises CaseError."""
+    label, equals, formula = text.partition("=")
+    body, _, name = label.partition(".")
+    if not equals or not name:
+        raise CaseError(f"--mode {text!r}: expected BODY.NAME=FORMULA")
+    return body, name, formula
+
+
+def at_corners(formula: str, panels: Array) -> Array:
+    """Return the displacements (n, 4, 3) [-] of the corners of panels (n, 4, 3) [m]."""
+    places = panels.reshape(-1, 3).round(9)  # sign(x) is 0 where halves meet
+    return displacements(formula, places).reshape(panels.shape)
+
+
 def _with_formulas(body: WettedBody, formulas: dict[str, str]) -> WettedBody:
     centers, _ = centers_and_areas(body.moving)
-    made = {name: by_formula(text, centers) for name, text in formulas.items()}
-    return replace(body, modes=body.modes | made)
+
+    def made(text: str) -> Mode:
+        return replace(by_formula(text, centers), corners=at_corners(text, body.panels))
+
+    return replace(body, modes=body.modes | {name: made(text) for name, text in formulas.items()})
 
 
 def _with_pools(body: WettedBody) -> WettedBody:

@@ -44,10 +44,14 @@ class Mode:
         Displacement per unit amplitude [-].
     divergence : (n,) array
         [1/m].
+    corners : (m, 4, 3) array or None
+        Displacement of the corners of the m panels of the hull per unit amplitude [-]; None where
+        the hull rests.
     """
 
     shape: Array
     divergence: Array
+    corners: Array | None = None
 
 
 def piston(before: int, count: int, after: int) -> Mode:
@@ -74,13 +78,18 @@ def by_formula(text: str, centers: Array) -> Mode:
         A formula cannot be read, or has no finite value at a panel.
     """
     trees = _parsed(text)
-    shape = np.stack([_value(text, tree, centers) for tree in trees], axis=1)
+    shape = displacements(text, centers)
     step = STEP * max(float(np.ptp(centers, axis=0).max()), 1e-6)
     divergence = np.zeros(len(centers))
     for axis, tree in zip(np.eye(3), trees, strict=True):
         ahead, behind = (_value(text, tree, centers + s * axis) for s in (step, -step))
         divergence += (ahead - behind) / (2.0 * step)
     return Mode(shape, divergence)
+
+
+def displacements(text: str, places: Array) -> Array:
+    """Return the displacements (n, 3) [-] of formulas at places (n, 3) [m]; see `by_formula`."""
+    return np.stack([_value(text, tree, places) for tree in _parsed(text)], axis=1)
 
 
 def stiffness(panels: Array, point: Array, modes: list[Mode], rho: float, gravity: float) -> Array:

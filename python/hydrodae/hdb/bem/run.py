@@ -79,6 +79,8 @@ class Settings:
     kochin : int
         Angles around the circle at which Kochin functions are kept; 0 for none. They need the
         sources of the indirect method: each frequency is then solved twice.
+    most_panels : int
+        Of all bodies and lids.
     """
 
     omega: Array
@@ -88,6 +90,7 @@ class Settings:
     water_depth: float = np.inf
     lid: bool = True
     kochin: int = 0
+    most_panels: int = MOST_PANELS
 
     def __post_init__(self) -> None:
         w = np.asarray(self.omega, dtype=float)
@@ -227,10 +230,10 @@ def _device(cpt: Any, bodies: Sequence[WettedBody], settings: Settings) -> Any:
     from capytaine.bodies.dofs import DofOnSubmesh, rigid_body_dofs
 
     hull = np.concatenate([b.moving for b in bodies])
-    _check_count(len(hull))
+    _check_count(len(hull), settings.most_panels)
     found = [_lid(b) for b in bodies] if settings.lid else []
     lids = [panels for panels in found if len(panels)]
-    _check_count(len(hull) + sum(map(len, lids)))
+    _check_count(len(hull) + sum(map(len, lids)), settings.most_panels)
     starts = np.r_[0, np.cumsum([len(b.moving) for b in bodies])]
     dofs: dict[str, Any] = {}
     for body, first, last in zip(bodies, starts[:-1], starts[1:], strict=True):
@@ -248,10 +251,11 @@ def _device(cpt: Any, bodies: Sequence[WettedBody], settings: Settings) -> Any:
     )
 
 
-def _check_count(count: int) -> None:
-    if count > MOST_PANELS:
+def _check_count(count: int, most: int) -> None:
+    if count > most:
         raise DatabaseError(
-            f"{count} panels, {MOST_PANELS} are allowed with the lids: take larger panels"
+            f"{count} panels, {most} are allowed with the lids: take larger panels, or allow more "
+            "(--most-panels)"
         ).about("mesh", "panels")
 
 

@@ -45,15 +45,17 @@ def draw_report(database: HydroDatabase, report: CheckReport) -> Figure:
         Six panels a body, of its rigid motions; every line over its own largest value, which the
         legend shows. Fits of the memory are dashed; suspect frequencies are shaded.
     """
-    database = database.select(rigid(database.coordinates))
+    labels = rigid(database.coordinates)
+    database = database.select(labels) if labels else database
     head = _head(database, report)
-    count = len(database.bodies)
+    bodies = list(database.bodies) if labels else []
+    count = len(bodies)
     heights = [0.145 * (head.count("\n") + 2), *([5.6] * count)]
     figure = Figure(figsize=(13.0, sum(heights)), layout="constrained")
     blocks = figure.subfigures(count + 1, 1, height_ratios=heights, squeeze=False)[:, 0]
     blocks[0].text(0.01, 0.98, head, va="top", family="monospace", fontsize=8)
     shaded = bands(database.omega, suspect_rows(database))
-    for block, body in zip(blocks[1:], database.bodies, strict=True):
+    for block, body in zip(blocks[1:], bodies, strict=True):
         block.suptitle(f"body {body}", x=0.01, ha="left", fontweight="bold", fontsize=11)
         axes = block.subplots(2, 3)
         _draw_body(axes, database, body)

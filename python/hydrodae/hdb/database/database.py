@@ -67,11 +67,7 @@ class HydroDatabase(Tables):
             added_mass_inf_std=self.added_mass_inf_std[square],
             froude_krylov=self.froude_krylov[:, :, i],
             diffraction=self.diffraction[:, :, i],
-            bodies={
-                name: replace(body, mode_stiffness=_selected_modes(self, name, labels))
-                for name in keep
-                for body in [self.bodies[name]]
-            },
+            bodies={name: _with_selected_modes(self, name, labels) for name in keep},
             kernel=None if self.kernel is None else self.kernel.selected(labels),
             memory=_selected_fits(self.memory, labels),
             second_order={
@@ -167,7 +163,9 @@ class HydroDatabase(Tables):
                 turn = np.eye(len(stiffness))
                 turn[:3, 3:6] = -co.skew(shifts[name])
                 stiffness = turn.T @ stiffness @ turn
-            bodies[name] = Body(name, new, moved, self.bodies[name].mesh, stiffness)
+            bodies[name] = replace(
+                bodies[name], reference_point=new, hydrostatics=moved, mode_stiffness=stiffness
+            )
         x = co.transport(self.coordinates, shifts)
         return replace(
             self,
@@ -233,11 +231,42 @@ class HydroDatabase(Tables):
         return replace(self, second_order={**self.second_order, **tables})
 
     def with_meshes(self, panels: Mapping[str, ArrayLike]) -> Self:
-        """Return a copy that keeps the wetted surfaces (n, 4, 3) [m] of some bodies."""
+        """Return a copy that keeps the wetted surfaces (n, 4, 3) [m] of some bodies.
+
+        Shapes of modes on their former surfaces are left out.
+        """
         bodies = dict(self.bodies)
         for name, value in panels.items():
             co.check_body(name, bodies)
-            bodies[name] = replace(bodies[name], mesh=np.asarray(value, dtype=float))
+            mesh = np.asarray(value, dtype=float)
+            bodies[name] = replace(bodies[name], mesh=mesh, mode_shapes=None)
+        return replace(self, bodies=bodies)
+
+    def with_mode_shapes(self, shapes: Mapping[str, Mapping[str, ArrayLike]]) -> Self:
+        """Return a copy that keeps the shapes of all modes of some bodies, for pictures.
+
+        Parameters
+        ----------
+        shapes : mapping
+            Displacements (n, 4, 3) of the corners of the wetted surface per unit of a mode [-], by
+            the name of the body and that of its mode.
+
+        Raises
+        ------
+        DatabaseError
+            No such body, a mode without a shape, or shapes that do not fit the surface.
+        """
+        bodies = dict(self.bodies)
+        for name, given in shapes.items():
+            co.check_body(name, bodies)
+            modes = modes_of(name, self.coordinates)
+            if set(given) != set(modes):
+                raise DatabaseError(
+                    f"shapes of {', '.join(given)} of {name!r}: expected those of its modes "
+                    f"{', '.join(modes)}"
+                ).about("label", name)
+            found = np.array([given[mode] for mode in modes], dtype=float)
+            bodies[name] = replace(bodies[name], mode_shapes=found)
         return replace(self, bodies=bodies)
 
     def write(self, path: str | Path, *, kernel: bool = True, single: bool = False) -> None:
@@ -254,14 +283,17 @@ class HydroDatabase(Tables):
         return summary(self)
 
 
-def _selected_modes(database: Tables, name: str, labels: Sequence[str]) -> Array | None:
-    """Hydrostatics over the six and the modes among the labels."""
-    stiffness, kept = database.bodies[name].mode_stiffness, modes_of(name, labels)
-    if stiffness is None or not kept:
-        return None
+def _with_selected_modes(database: Tables, name: str, labels: Sequence[str]) -> Body:
+    """The body with hydrostatics and shapes of the modes among the labels alone."""
+    body, kept = database.bodies[name], modes_of(name, labels)
+    if body.mode_stiffness is None or not kept:
+        return replace(body, mode_stiffness=None, mode_shapes=None)
     modes = modes_of(name, database.coordinates)
-    rows = [*range(6), *(6 + modes.index(mode) for mode in kept)]
-    return np.asarray(stiffness[np.ix_(rows, rows)])
+    places = [modes.index(mode) for mode in kept]
+    rows = [*range(6), *(6 + place for place in places)]
+    shapes = None if body.mode_shapes is None else body.mode_shapes[places]
+    stiffness = body.mode_stiffness[np.ix_(rows, rows)]
+    return replace(body, mode_stiffness=stiffness, mode_shapes=shapes)
 
 
 def _selected_fits(

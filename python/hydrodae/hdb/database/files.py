@@ -29,7 +29,7 @@ from hydrodae.hdb.database.layout import (
 from hydrodae.hdb.database.second_order_file import read_second_order, write_second_order
 from hydrodae.hdb.database.tables import Body, Tables
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
-from hydrodae.hdb.labels import bodies_of
+from hydrodae.hdb.labels import bodies_of, modes_of
 from hydrodae.support import outputs
 from hydrodae.support.damaged import reading
 
@@ -210,6 +210,9 @@ def _write_bodies(f: h5py.File, db: Tables) -> None:
             write_dataset(group, "mode_stiffness", BODY["mode_stiffness"], body.mode_stiffness)
         if body.mesh is not None:  # to be looked at: seven digits will do
             write_dataset(group, "mesh", BODY["mesh"], body.mesh.astype(np.float32))
+        if body.mode_shapes is not None:
+            shapes = body.mode_shapes.astype(np.float32)
+            write_dataset(group, "mode_shapes", BODY["mode_shapes"], shapes)
 
 
 def _read(f: h5py.File) -> dict[str, Any]:
@@ -223,7 +226,7 @@ def _read(f: h5py.File) -> dict[str, Any]:
     water = {name: read_numbers(f, name, ()) for name in ("rho", "gravity", "water_depth")}
     return dict(
         excitation_split=label_text(f["excitation"].attrs.get("split", "")) != "total only",
-        bodies=_read_bodies(f, bodies_of(values["coordinates"])),
+        bodies=_read_bodies(f, values["coordinates"]),
         added_mass_inf_origin=label_text(f["added_mass_inf"].attrs.get("origin", "")),
         kernel=None if stored is None else _read_kernel(stored),
         memory={name: _read_fit(name, fits[name]) for name in fits},
@@ -236,9 +239,11 @@ def _read(f: h5py.File) -> dict[str, Any]:
     )
 
 
-def _read_bodies(f: h5py.File, names: Iterable[str]) -> dict[str, Body]:
+def _read_bodies(f: h5py.File, labels: Iterable[str]) -> dict[str, Body]:
     bodies = {}
-    for name in sorted(names, key=lambda b: int(read_numbers(f[f"bodies/{b}"], "index", ()))):
+    for name in sorted(
+        bodies_of(labels), key=lambda b: int(read_numbers(f[f"bodies/{b}"], "index", ()))
+    ):
         group = f[f"bodies/{name}"]
         known = "displaced_volume" in group.attrs
         numbers = {
@@ -248,6 +253,10 @@ def _read_bodies(f: h5py.File, names: Iterable[str]) -> dict[str, Body]:
         }
         point = numbers.pop("reference_point")
         tables = read_group(group, BODY)
+        shapes, modes = tables.get("mode_shapes"), len(modes_of(name, labels))
+        if shapes is not None and (len(shapes) != modes or "mesh" not in tables):
+            fault = f"expected {modes} modes at the corners of a mesh, found {len(shapes)} modes"
+            raise refused(group, "mode_shapes", "shape", fault)
         bodies[name] = Body(
             name,
             point,
@@ -255,6 +264,7 @@ def _read_bodies(f: h5py.File, names: Iterable[str]) -> dict[str, Body]:
             tables.get("mesh"),
             tables.get("mode_stiffness"),
             bool(group.attrs.get("column", False)),
+            shapes,
         )
     return bodies
 

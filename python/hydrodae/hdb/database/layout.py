@@ -2,8 +2,8 @@
 
 Letters name lengths that several datasets share; where one of them stands for the first time in a
 group, it is what the file says: n coordinates, w frequencies, h headings, i what moves, o what is
-loaded, t times, p poles, m panels. Units of tables are those of translations, of their coupling
-with rotations, and of rotations. cpp/hydrodae/io/hydro_file.cpp checks the same shapes.
+loaded, t times, p poles, m panels, j modes. Units of tables are those of translations, of their
+coupling with rotations, and of rotations. cpp/hydrodae/io/hydro_file.cpp checks the same shapes.
 """
 
 from __future__ import annotations
@@ -71,6 +71,7 @@ TABLES = {
 BODY = {
     "hydrostatic_stiffness": Entry((6, 6), unit=STIFFNESS),
     "mesh": Entry(("m", 4, 3), unit="m"),
+    "mode_shapes": Entry(("j", "m", 4, 3), unit="-"),
     "mode_stiffness": Entry(("k", "k"), unit=STIFFNESS),
 }
 KERNEL = {

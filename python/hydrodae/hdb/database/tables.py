@@ -47,6 +47,9 @@ class Body:
     mesh : (n, 4, 3) array or None
         Panels of the wetted surface [m], world axes, as they were computed; triangles repeat their
         last corner. None if the source does not hold them. Nothing is computed from them.
+    mode_shapes : (m, n, 4, 3) array or None
+        Displacements of the corners of `mesh` per unit of each mode [-], modes in the order of the
+        coordinates. None if they are unknown. Nothing is computed from them.
     column : bool
         It is a water column: a piston of water inside a hull, not a hull itself.
     """
@@ -57,6 +60,7 @@ class Body:
     mesh: Array | None = None
     mode_stiffness: Array | None = None
     column: bool = False
+    mode_shapes: Array | None = None
 
     def __post_init__(self) -> None:
         if co.body_name(self.name) != self.name:
@@ -176,6 +180,12 @@ class Tables:
                     f"coordinates {', '.join(modes)} of {name!r}: expected a mode_stiffness of "
                     f"6 + {len(modes)} rows, or one of {', '.join(DOFS)}"
                 ).about("label", name)
+            shapes = None if body.mesh is None else (len(modes), *body.mesh.shape)
+            if body.mode_shapes is not None and body.mode_shapes.shape != shapes:
+                raise DatabaseError(
+                    f"mode_shapes of {name!r} have shape {body.mode_shapes.shape}, expected "
+                    f"{shapes or 'none without a mesh'}"
+                ).about("shape", name)
         for name, entry in NUMBERS.items():
             value, shape = getattr(self, name), tuple(lengths[str(dim)] for dim in entry.dims)
             if value.shape != shape:

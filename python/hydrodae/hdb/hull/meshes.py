@@ -68,10 +68,14 @@ def _read(file: Path) -> Array:
 
 
 def triangles_of(panels: ArrayLike) -> Array:
-    """Return the triangles (m, 3, 3) of panels (n, 4, 3), those without area left out."""
+    """Return the triangles (m, 3, 3) of panels (n, 4, 3), those without area left out.
+
+    Further numbers of the corners after x, y, z are carried along.
+    """
     p = np.asarray(panels, dtype=float)
     both = np.concatenate([p[:, [0, 1, 2]], p[:, [0, 2, 3]]])
-    across = np.linalg.norm(np.cross(both[:, 1] - both[:, 0], both[:, 2] - both[:, 0]), axis=1)
+    sides = both[:, 1:, :3] - both[:, :1, :3]
+    across = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
     return np.asarray(both[across > 1e-12 * across.max(initial=0.0)], dtype=float)
 
 

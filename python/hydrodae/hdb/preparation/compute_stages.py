@@ -6,6 +6,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import numpy as np
+
 from hydrodae.errors import CaseError
 from hydrodae.hdb.bem import run, shapes
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
@@ -39,9 +41,17 @@ def solve(state: Computation) -> None:
 
 
 def add_panels(state: Computation) -> None:
-    """Take the `database`; add the panels (n, 4, 3) [m] of each body."""
+    """Take the `database`; add panels (n, 4, 3) [m] of each body, shapes of its modes."""
     panels = {body.name: body.panels for body in state.bodies}
-    state.database = state.database.with_meshes(panels)
+    shapes = {
+        body.name: {
+            name: np.zeros(body.panels.shape) if mode.corners is None else mode.corners
+            for name, mode in body.modes.items()
+        }
+        for body in state.bodies
+        if body.modes
+    }
+    state.database = state.database.with_meshes(panels).with_mode_shapes(shapes)
 
 
 def hydrostatics_of(bodies: Sequence[run.WettedBody]) -> dict[str, Hydrostatics]:

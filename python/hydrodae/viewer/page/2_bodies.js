@@ -7,10 +7,11 @@ function surface(positions, center) {
   const moved = new Float32Array(positions.length);
   for (let i = 0; i < moved.length; ++i) moved[i] = positions[i] - center[i % 3];
   const geometry = new L.BufferGeometry();
-  const { places, normals, index } = shared(moved, creasedNormals(moved));
+  const { places, normals, index, kept } = shared(moved, creasedNormals(moved));
   geometry.setAttribute("position", new L.BufferAttribute(places, 3));
   geometry.setAttribute("normal", new L.BufferAttribute(normals, 3));
   geometry.setIndex(index);
+  geometry.userData.kept = kept;
   return geometry;
 }
 
@@ -24,7 +25,7 @@ function shared(positions, normals) {
     index.push(known.get(key));
   }
   const take = (from) => Float32Array.from(kept.flatMap((i) => [...from.subarray(i, i + 3)]));
-  return { places: take(positions), normals: take(normals), index };
+  return { places: take(positions), normals: take(normals), index, kept };
 }
 
 function creasedNormals(p) {
@@ -92,16 +93,20 @@ function makeBody(body) {
   });
   const pale = material.clone();
   pale.color = colour.clone().lerp(new L.Color("white"), 0.35);
-  const parts = [[body.surface, body.cut ? cutMaterial(material) : material], [body.above, pale]];
+  const parts = [[body.surface, body.cut ? cutMaterial(material) : material, body.shapes],
+                 [body.above, pale, body.shapes_above]];
   let level = () => {};
-  for (const [place, paint] of parts) {
+  const bends = [];
+  for (const [place, paint, shapes] of parts) {
     if (place[1] === 0) continue;
     const geometry = surface(numbers(place), body.center);
     if (body.cut) level = levels(geometry, group, body.cut);
     const mesh = new L.Mesh(geometry, paint);
     mesh.userData.name = body.name;
     const line = new L.LineBasicMaterial({ color: 0x16222b, transparent: true, opacity: 0.55 });
-    group.add(mesh, new L.LineSegments(straightened(new L.EdgesGeometry(geometry, 28)), line));
+    const edges = new L.EdgesGeometry(geometry, 28);
+    if (body.modes) bends.push(bending(body, geometry, edges, numbers(shapes)));
+    group.add(mesh, new L.LineSegments(body.modes ? edges : straightened(edges), line));
   }
   const position = numbers(body.position), orientation = numbers(body.orientation);
   const next = new L.Quaternion();
@@ -112,6 +117,7 @@ function makeBody(body) {
     group.quaternion.set(q[i + 1], q[i + 2], q[i + 3], q[i]);
     group.quaternion.slerp(next.set(q[j + 1], q[j + 2], q[j + 3], q[j]), sample.part);
     level(time);
+    bends.forEach((bend) => bend(sample));
   };
   return { name: body.name, group, place, paints: [material, pale], origin: body.origin,
            kind: "body" };

@@ -242,6 +242,7 @@ window.hydrodae = {
   pick: (name) => pick(thing(name)),
   elevation: (t, x, y) => elevationAt(t)(x, y),
   place: (name) => bodies.find((body) => body.name === name).group.position.toArray(),
+  corners: (name) => drawnCorners(bodies.find((body) => body.name === name)),
   resolution: () => ratio,
   leftOut: () => bare,
   sharpen: (pixels) => (still = pixels),
