@@ -11,8 +11,10 @@ import pytest
 from tests.python.hdb_command import call
 
 import hydrodae
+from hydrodae.case.bodies import shape_file
 from hydrodae.errors import DatabaseError, HydrodaeError
 from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.hull.closed import write_stl
 from hydrodae.support.arrays import Array
 from hydrodae.viewer import ViewError, browser
 from hydrodae.viewer.page import page_data
@@ -119,6 +121,23 @@ def test_without_shapes_the_hull_is_rigid_and_the_page_says_so(case: Path) -> No
     )
     asked = hydrodae.view(case, shapes={"barge": "box:length=60:width=10:height=3"}).stage
     assert asked.bodies[0].origin.endswith("the shapes of its modes are not known on what is drawn")
+
+
+def test_a_file_to_be_drawn_is_not_bent_by_shapes_of_the_wetted_surface(case: Path) -> None:
+    drawn = shape_file(case.parent, "barge")
+    drawn.parent.mkdir()
+    write_stl(np.array([[[0, 0, 0], [1, 0, 0], [0, 1, 0]]], dtype=float), drawn)
+    try:
+        body = hydrodae.view(case).stage.body("barge")
+    finally:
+        shutil.rmtree(drawn.parent)
+    assert body is not None
+    assert body.bent().shape == (len(body.position), 3, 3)
+    assert body.origin.endswith("the shapes of its modes are not known on what is drawn")
+
+
+def test_the_body_of_a_picture_is_bent_at_its_sample(barge: Body) -> None:
+    np.testing.assert_array_equal(barge.at(5).bent()[0], barge.bent()[5])
 
 
 def test_shapes_are_added_to_a_database(case: Path) -> None:

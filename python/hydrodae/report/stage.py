@@ -63,8 +63,7 @@ def _draw_bodies(axes: Axes, stage: Stage, at: int) -> None:
     """Draw what is below the waves beneath their surface, the rest above it."""
     parts: dict[float, list[tuple[Array, Array]]] = {BELOW: [], ABOVE: []}
     for k, body in enumerate(stage.bodies):
-        hull = np.concatenate([body.surface, body.above])
-        placed = body.places(hull.reshape(-1, 3))[at].reshape(-1, 3, 3)
+        placed = body.at(at).bent().reshape(-1, 3, 3)
         if enclosed_volume(placed) < 0.0:
             placed = placed[:, ::-1]
         panels = np.concatenate([placed, placed[:, 2:]], axis=1)

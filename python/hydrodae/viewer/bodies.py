@@ -63,6 +63,7 @@ def make_bodies(
     for entry in entries:
         name, center = entry["name"], _center(entry)
         cut, drawn = "", shape_file(source.case.directory, name)
+        hydro = None  # body of the database whose surface is drawn
         if "mesh" in entry and name not in wanted:
             place = np.asarray(entry.get("mesh_origin", np.zeros(3)), dtype=float)
             hull = triangles_of(read_mesh(source.case.directory / entry["mesh"]) + place)
@@ -72,16 +73,14 @@ def make_bodies(
             hull, above = triangles_of(read_mesh(drawn)), NOTHING
             origin = f"shapes/{drawn.name} beside the case, {len(hull)} triangles"
         else:
-            hull, above, origin = _surface(
-                entry, wanted.get(name), wet.get(entry.get("hydro", "")), ends[name], tables, size
-            )
+            hydro = None if name in wanted else wet.get(entry.get("hydro", ""))
+            hull, above, origin = _surface(entry, wanted.get(name), hydro, ends[name], tables, size)
         if height is not None and len(above):
             above = freeboard(wet[entry["hydro"]].mesh, height) + _shift(entry, wet)
         position = source.values(f"bodies/{name}/position")
         orientation = source.values(f"bodies/{name}/orientation")
         moves = entry.get("motion") != "fixed"
         body = Body(name, center, position, orientation, hull, above, origin, moves, cut)
-        hydro = None if "mesh" in entry or name in wanted else wet.get(entry.get("hydro", ""))
         known = modes_of(entry.get("hydro", ""), database["coordinates"])
         modes = [mode for mode in tables.get("mode", []) if mode["body"] == name]
         made.append(bend(body, hydro, known, modes, source))

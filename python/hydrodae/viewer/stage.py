@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -55,6 +55,16 @@ class Body:
     def corners(self) -> Array:
         """Corners (3 (m + k), 3) of `surface` and `above` in the reference pose [m]."""
         return np.concatenate([self.surface, self.above]).reshape(-1, 3)
+
+    def at(self, sample: int) -> Body:
+        """The body at one sample alone."""
+        one = slice(sample, sample + 1)
+        return replace(
+            self,
+            position=self.position[one],
+            orientation=self.orientation[one],
+            amplitudes=self.amplitudes[one],
+        )
 
     def bent(self) -> Array:
         """World places (n, 3 (m + k), 3) over time of its corners, which its modes move."""
