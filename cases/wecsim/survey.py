@@ -56,8 +56,8 @@ class Row:
         return not (self.missing or self.stop)
 
     def __str__(self) -> str:
-        told = [f"stops: {self.stop}"] if self.stop else []
-        text = "; ".join(_short(text) for text in told + self.missing).replace("|", "/")
+        stops = [f"stops: {self.stop}"] if self.stop else []
+        text = "; ".join(_short(text) for text in stops + self.missing).replace("|", "/")
         cells = [self.folder, _word(self.whole), _word(self.first), text]
         return "| " + " | ".join(cells) + " |"
 
@@ -129,8 +129,8 @@ def table(given: argparse.Namespace) -> str:
                 warnings.simplefilter("ignore")
                 rows.append(row_of(file.parent, name, Path(work) / "case", given.seconds, defined))
             print(rows[-1], file=sys.stderr, flush=True)
-    told = [row.missing + [row.stop] * bool(row.stop) for row in rows]
-    kinds = Counter(kind for texts in told for kind in {kind_of(text) for text in texts})
+    faults = [row.missing + [row.stop] * bool(row.stop) for row in rows]
+    kinds = Counter(kind for texts in faults for kind in {kind_of(text) for text in texts})
     whole, runs = sum(row.whole for row in rows), sum(not row.stop for row in rows)
     lines = ["| folder | whole | first try | missing |", "|---|---|---|---|", *map(str, rows), ""]
     lines += [f"Of {len(rows)}: {runs} run, {whole} whole, {sum(r.first for r in rows)} first try."]

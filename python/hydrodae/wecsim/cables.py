@@ -71,8 +71,10 @@ def add_cable(
     stiffness, tension = item.number_of("stiffness"), item.number_of("preTension")
     length = item.number_of("cableLength") or apart - (tension / stiffness if tension else 0.0)
     if not (stiffness > 0.0 and length > 0.0):
-        told = f"{item.title}: stiffness {stiffness:g} N/m, length {length:g} m; above 0 are needed"
-        read.remarks.left_out(place, told, "cable")
+        message = (
+            f"{item.title}: stiffness {stiffness:g} N/m, length {length:g} m; above 0 are needed"
+        )
+        read.remarks.left_out(place, message, "cable")
         return
     name = item.arguments[0] if isinstance(item.arguments[0], str) else item.title
     keys: dict[str, Any] = {"type": "rope", "name": plain_name(name, "cable")}
@@ -86,8 +88,8 @@ def add_cable(
     for group in dict.fromkeys(cable.groups):
         if topology.groups[group].bodies or topology.groups[group].is_ground:
             if drag or item.number_of("mass", 1.0):
-                told = f"{item.title}: mass and drag of its node on {carriers[group]}"
-                read.remarks.left_out(place, told)
+                message = f"{item.title}: mass and drag of its node on {carriers[group]}"
+                read.remarks.left_out(place, message)
         elif drag:
             node = carriers[group]
             table = {"type": "viscous_damping", "name": f"{node}_drag", "body": node} | drag

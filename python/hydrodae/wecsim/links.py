@@ -274,9 +274,9 @@ class Links:
             if f"{entry}TransitionRegion" in item.entries:
                 item.used.add(f"{entry}TransitionRegion")
                 place = self.read.place(item.line_of(f"{entry}TransitionRegion"))
-                told = f"no field of WEC-Sim, which has {entry}TransitionRegionWidth"
+                message = f"no field of WEC-Sim, which has {entry}TransitionRegionWidth"
                 self.read.remarks.not_needed(
-                    place, f"{item.title}.{entry}TransitionRegion ({told})"
+                    place, f"{item.title}.{entry}TransitionRegion ({message})"
                 )
             on = item.text(f"{entry}Specify", "off") == "on"
             bound = item.number_of(f"{entry}Bound", 1.0 if side == "upper" else -1.0)

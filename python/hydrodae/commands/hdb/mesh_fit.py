@@ -107,7 +107,7 @@ def few_enough(
         if after is before:
             continue
         change = volume_change(before, after)
-        told = (
+        message = (
             f"{len(before.panels)} panels coarsened to {len(after.panels)}, volume under water "
             f"{100 * change:+.2g} %"
         )
@@ -115,13 +115,13 @@ def few_enough(
             enough = _enough(bodies, meshed, most, with_lid)
             raise (
                 DatabaseError(
-                    f"{told}: more than {100 * MOST_CHANGE:g} %; write --most-panels {enough} "
+                    f"{message}: more than {100 * MOST_CHANGE:g} %; write --most-panels {enough} "
                     f"({16e-9 * enough**2:.2g} GB a matrix), or give a mesh with fewer panels"
                 )
                 .about("mesh", "panels")
                 .within(f"body {before.name}")
             )
-        print(f"{before.name}: {told}")
+        print(f"{before.name}: {message}")
     return now
 
 

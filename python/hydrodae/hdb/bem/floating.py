@@ -43,9 +43,11 @@ def shift_to_float(panels: Array, volume: float) -> float:
     Raises
     ------
     DatabaseError
-        Even the whole surface displaces less, or it has holes and would have to sink.
+        It is flat, even the whole surface displaces less, or it has holes and would have to sink.
     """
     low, high = float(panels[..., 2].min()), float(panels[..., 2].max())
+    if low == high:
+        raise DatabaseError("the mesh is flat: it encloses no volume").about("mesh", "mass")
     deepest = -high
     try:
         most = volume_below(panels, deepest)
