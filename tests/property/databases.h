@@ -21,8 +21,9 @@ struct Random {
 inline const std::vector<std::string> dofs = {"surge", "sway", "heave", "roll", "pitch", "yaw"};
 
 /// A database of two bodies with coupled added mass, hydrostatics and a memory of real and complex
-/// poles with dense complex input and output matrices.
-inline std::shared_ptr<const hydro::Database> random_database(Random& random) {
+/// poles with dense complex input and output matrices; the first body may have modes.
+inline std::shared_ptr<const hydro::Database>
+random_database(Random& random, const std::vector<std::string>& modes = {}) {
   auto db = std::make_shared<hydro::Database>();
   db->rho = 1025.0;
   db->gravity = 9.81;
@@ -38,19 +39,27 @@ inline std::shared_ptr<const hydro::Database> random_database(Random& random) {
     for (const std::string& dof : dofs)
       db->coordinates.push_back(name + "." + dof);
   }
-  MatrixX root(12, 12);
-  for (int k = 0; k < 144; ++k)
+  const Index rigid = 12, n = rigid + std::ssize(modes);
+  MatrixX root(n, n);
+  for (int k = 0; k < n * n; ++k)
     root(k) = random();
+  if (hydro::DatabaseBody& a = db->bodies.front(); !modes.empty()) {
+    a.modes = modes;
+    a.mode_stiffness = MatrixX::NullaryExpr(n - 6, n - 6, [&] { return 10.0 * random(); });
+    a.mode_stiffness.topLeftCorner<6, 6>() = a.hydrostatics->stiffness;
+    for (const std::string& mode : modes)
+      db->coordinates.push_back("a." + mode);
+  }
   db->added_mass_inf = root * root.transpose();
   hydro::MemoryFit fit;
   fit.name = "random";
   fit.inputs = fit.outputs = db->coordinates;
   fit.poles.resize(3);
   fit.poles << -0.7, std::complex<double>(-0.3, 1.1), std::complex<double>(-0.2, 2.0);
-  fit.input_matrix.resize(3, 12);
-  fit.output_matrix.resize(12, 3);
+  fit.input_matrix.resize(3, n);
+  fit.output_matrix.resize(n, 3);
   for (int k = 0; k < 3; ++k)
-    for (int c = 0; c < 12; ++c) {
+    for (int c = 0; c < n; ++c) {
       const bool pair = fit.poles[k].imag() != 0.0;
       fit.input_matrix(k, c) = {random(), pair ? random() : 0.0};
       fit.output_matrix(c, k) = {random(), pair ? random() : 0.0};
@@ -74,7 +83,7 @@ inline std::shared_ptr<const hydro::Database> random_database(Random& random) {
   db->omega = Vector3(0.5, 1.0, 2.0);
   db->heading = Eigen::Vector2d(-0.5, 0.5);
   for (int h = 0; h < 2; ++h)
-    db->excitation.emplace_back(10.0 * Eigen::MatrixXcd::Random(3, 12));
+    db->excitation.emplace_back(10.0 * Eigen::MatrixXcd::Random(3, n));
   for (int w = 0; w < 3; ++w) {
     db->added_mass.push_back((1.0 + 0.1 * w) * db->added_mass_inf);
     db->damping.push_back(0.2 * (1.0 + w) * db->added_mass_inf);
@@ -87,8 +96,9 @@ inline std::shared_ptr<const hydro::Database> all_round(const hydro::Database& g
   auto db = std::make_shared<hydro::Database>(given);
   db->heading = VectorX::LinSpaced(6, 0.0, 2.0 * pi);
   db->excitation.clear();
+  const Index n = std::ssize(db->coordinates);
   for (int h = 0; h < 5; ++h)
-    db->excitation.emplace_back(10.0 * Eigen::MatrixXcd::Random(3, 12));
+    db->excitation.emplace_back(10.0 * Eigen::MatrixXcd::Random(3, n));
   db->excitation.push_back(db->excitation.front());
   return db;
 }

@@ -10,6 +10,7 @@
 #include "databases.h"
 #include "forces.h"
 #include "hydrodae/joint/types.h"
+#include "hydrodae/model/deformation.h"
 #include "hydrodae/model/scene.h"
 #include "hydrodae/system/history.h"
 #include "hydrodae/system/jacobian.h"
@@ -74,6 +75,21 @@ inline void add_hydro(model::Scene& scene, const std::string& axes, const std::s
     body.hydro = body.name;
 }
 
+/// A mode of the first body, whose mass, motions and water are coupled with it.
+inline void add_mode(model::Scene& scene, Random& random) {
+  scene.database = random_database(random, {"bend"});
+  model::Mode mode;
+  mode.name = "bend";
+  mode.body = scene.bodies.front().name;
+  mode.mass = 0.4;
+  mode.stiffness = 3.0;
+  mode.mass_with_motions.resize(6);
+  for (double& mass : mode.mass_with_motions)
+    mass = 0.01 * random();
+  scene.modes.push_back(mode);
+  model::add_parts(scene);
+}
+
 /// Tables of both bodies over one coordinate of the pose of each.
 inline void add_pose_tables(model::Scene& scene, const std::string& coordinate, Random& random) {
   for (const model::Body& body : scene.bodies) {
@@ -102,24 +118,30 @@ inline std::vector<NamedScene> all_scenes() {
   std::size_t next_pose = 0;
   for (const joint::JointType& type : joint::joint_types())
     for (const auto& motion : motions)
-      for (const std::string hydro : {"dry", "body", "mean", "yaw", "round", "constant",
-                                      "convolution", "poses", "poses, constant"}) {
+      for (const std::string hydro :
+           {"dry", "body", "mean", "yaw", "round", "constant", "convolution", "poses",
+            "poses, constant", "mean, mode", "round, mode"}) {
+        const bool bends = hydro.ends_with("mode");
         // Rows on three axes of rotation overdetermine a body that has one.
-        if (motion.size() > 1 && type.rows.size() > 3)
+        if ((motion.size() > 1 && type.rows.size() > 3) || (bends && motion.front() != "rigid"))
           continue;
         model::Scene scene = two_bodies(type, motion, random);
         if (hydro != "dry")
           add_hydro(scene,
-                    hydro == "round"                    ? "yaw"
-                    : hydro == "mean" || hydro == "yaw" ? hydro
-                                                        : "body",
+                    hydro.starts_with("round")  ? "yaw"
+                    : hydro.starts_with("mean") ? "mean"
+                    : hydro == "yaw"            ? "yaw"
+                                                : "body",
                     hydro.ends_with("constant") ? "constant"
                     : hydro == "convolution"    ? hydro
                                                 : "exponential",
                     random);
-        if (hydro == "round")
+        if (bends)
+          add_mode(scene, random);
+        if (hydro.starts_with("round"))
           scene.database = all_round(*scene.database);
-        if (hydro == "mean" || hydro == "constant" || hydro == "round" || hydro == "poses")
+        if (hydro.starts_with("mean") || hydro == "constant" || hydro.starts_with("round") ||
+            hydro == "poses")
           scene.sea.phase = "moving";
         if (hydro.starts_with("poses")) {
           scene.hydro->axes = std::vector{"mean", "body", "yaw"}[next_pose % 3];
