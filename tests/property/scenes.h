@@ -111,7 +111,7 @@ struct NamedScene {
 /// Every joint type x kind of body x hydrodynamic axes, each with every force.
 inline std::vector<NamedScene> all_scenes() {
   std::vector<NamedScene> scenes;
-  Random random;
+  Random common;
   const std::vector<std::vector<std::string>> motions = {
       {"rigid"}, {"planar"}, {"surge", "sway", "heave", "yaw"}};
   const std::vector<std::string> poses = {"heave", "roll", "pitch", "yaw"};
@@ -125,6 +125,8 @@ inline std::vector<NamedScene> all_scenes() {
         // Rows on three axes of rotation overdetermine a body that has one.
         if ((motion.size() > 1 && type.rows.size() > 3) || (bends && motion.front() != "rigid"))
           continue;
+        Random own; // scenes with a mode leave the numbers of the others as they are
+        Random& random = bends ? own : common;
         model::Scene scene = two_bodies(type, motion, random);
         if (hydro != "dry")
           add_hydro(scene,
