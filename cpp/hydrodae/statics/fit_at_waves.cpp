@@ -10,6 +10,7 @@
 #include "hydrodae/build/parts.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/hydro/frequency.h"
+#include "hydrodae/linalg/klu.h"
 #include "hydrodae/math/dense.h"
 #include "hydrodae/model/motion.h"
 #include "hydrodae/model/waves.h"
@@ -64,10 +65,8 @@ Eigen::MatrixXcd transfer(const hydro::MemoryFit& fit, const Coordinates& of, do
 }
 
 /// Equations linearised at the start, at rest, in the motions that the constraints allow.
-struct Linear {
-  LinearMatrices m;
-  MatrixX free, map; ///< N (n_u, n_free) with G N = 0, T (m, n_u)
-
+class Linear {
+public:
   explicit Linear(const system::Regime& s) {
     VectorX y = system::initial_state(s);
     y.segment(s.u0, s.n_u).setZero();
@@ -84,22 +83,67 @@ struct Linear {
     const VectorX rest = VectorX::Zero(s.n);
     system::unpack<double>(s, y.data(), rest.data(), ws.bodies);
     map = hydro_map(s, ws) * free;
+    if (m.state_by_state.size() > 0)
+      find_pattern_of_states();
   }
 
   /// Motion U / (iw) (m,) by loads (m,), with the radiation H (m, m).
-  Eigen::VectorXcd motion(double omega, const Eigen::MatrixXcd& H,
-                          const Eigen::VectorXcd& force) const {
-    const Complex iw(0.0, omega);
-    Eigen::MatrixXcd Z = iw * iw * m.mass + iw * m.damping + m.stiffness;
-    if (const Index n = m.state_by_state.rows()) {
-      const Eigen::MatrixXcd states = iw * MatrixX::Identity(n, n) - m.state_by_state;
-      Z -= product(m.load_by_state.cast<Complex>(),
-                   solve_complex(states, m.state_by_xi + iw * m.state_by_rate));
-    }
+  Eigen::VectorXcd motion(double omega, const Eigen::MatrixXcd& H, const Eigen::VectorXcd& force) {
     const Eigen::MatrixXcd wide = map.cast<Complex>();
-    const Eigen::MatrixXcd own = congruence(free, Z) + iw * congruence(map, H);
+    const Eigen::MatrixXcd own = impedance(omega) + Complex(0.0, omega) * congruence(map, H);
     return product(wide, solve_complex(own, product(wide.transpose(), force)));
   }
+
+private:
+  /// N^T (K + iw C - w^2 M - F_z (iw - A)^-1 (B + iw D)) N, kept until the frequency changes.
+  const Eigen::MatrixXcd& impedance(double omega) {
+    if (omega == omega_)
+      return impedance_;
+    omega_ = omega;
+    const Complex iw(0.0, omega);
+    Eigen::MatrixXcd Z = iw * iw * m.mass + iw * m.damping + m.stiffness;
+    if (states_)
+      Z -= product(m.load_by_state.cast<Complex>(), states_by_xi(iw));
+    return impedance_ = congruence(free, Z);
+  }
+
+  /// Pattern of iw - A: each node of a line depends on its neighbours only.
+  void find_pattern_of_states() {
+    const MatrixX& A = m.state_by_state;
+    starts_ = {0};
+    for (Index j = 0; j < A.cols(); ++j) {
+      for (Index i = 0; i < A.rows(); ++i)
+        if (i == j || A(i, j) != 0.0)
+          rows_.push_back(i);
+      starts_.push_back(std::ssize(rows_));
+    }
+    states_.emplace(starts_, rows_);
+  }
+
+  /// (iw - A)^-1 (B + iw D), (n_z, n_u).
+  Eigen::MatrixXcd states_by_xi(Complex iw) {
+    const MatrixX& A = m.state_by_state;
+    for (Index j = 0; j < A.cols(); ++j)
+      for (Index k = starts_[static_cast<std::size_t>(j)];
+           k < starts_[static_cast<std::size_t>(j + 1)]; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        states_->values()[at] = (rows_[at] == j ? iw : 0.0) - A(rows_[at], j);
+      }
+    Eigen::MatrixXcd out = m.state_by_xi + iw * m.state_by_rate;
+    if (!states_->factorise())
+      return Eigen::MatrixXcd::Constant(out.rows(), out.cols(), NAN);
+    for (Index j = 0; j < out.cols(); ++j)
+      if (!out.col(j).isZero(0.0))
+        states_->solve(out.col(j).data());
+    return out;
+  }
+
+  LinearMatrices m;
+  MatrixX free, map; ///< N (n_u, n_free) with G N = 0, T (m, n_u) N
+  std::vector<Index> starts_, rows_;
+  std::optional<linalg::SparseLu<Complex>> states_; ///< iw - A
+  double omega_ = -1.0;                             ///< frequency of `impedance_` [rad/s]
+  Eigen::MatrixXcd impedance_;
 };
 
 /// Sum of |amplitude|^2 by table frequency (its index) and heading.
@@ -120,7 +164,7 @@ struct Comparison {
   const hydro::Database& db;
   const hydro::MemoryFit& fit;
   const Coordinates& of;
-  const Linear& linear;
+  Linear& linear;
   hydro::Excitation excitation;
 
   std::optional<Eigen::VectorXcd> force(double omega, double heading) const {
@@ -192,7 +236,7 @@ std::vector<Finding> look_at_fit(const model::Scene& scene, const system::System
     return out;
   const Coordinates of(scene, given, *fit);
   const system::Regime regime(given);
-  const Linear linear(regime);
+  Linear linear(regime);
   const Comparison comparison{db, *fit, of, linear, {db, db.excitation, of.labels}};
   for (const sea::Wave& wave : scene.waves) {
     const auto parts = at_table(db.omega, model::wave_components(scene, wave, nullptr));
