@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 from tests.verification import chambers
 from tests.verification.chambers import TIGHT, integral
 
@@ -149,3 +150,40 @@ def test_data_that_are_refused(keys: dict[str, Any], message: str) -> None:
 def test_flows_that_are_refused(at: list[float], flow: list[float], message: str) -> None:
     with pytest.raises(hydrodae.CaseError, match=message):
         attempt("turbine", speed=100.0, flow_at=at, flow=flow)
+
+
+def test_a_measured_speed_of_rotation_is_a_table_over_time() -> None:
+    times, period = np.arange(0.0, 6.0, 0.1), 0.1
+    speeds = 100.0 + 40.0 * np.sin(0.9 * times)
+    scene = chambers.plant()
+    scene.outlet.wells("turbine", chamber="air", diameter=0.75, speed=speeds[0], flow_slope=0.775)
+    scene.controller.table(
+        "record",
+        inputs="time",
+        outputs="outlets/turbine/speed",
+        period=period,
+        at=times.tolist(),
+        value=speeds.tolist(),
+    )
+    scene.output(step=period)
+    motion = chambers.column(0.3)
+    run = chambers.run_driven(scene, motion, 5.0)
+
+    def pressure(t: float, mass: float) -> float:
+        density = mass / (chambers.VOLUME - chambers.AREA * motion(t)[0])
+        return chambers.OUTSIDE * ((density / chambers.DENSITY) ** chambers.EXPONENT - 1.0)
+
+    mass, found = chambers.DENSITY * chambers.VOLUME, [0.0]
+    for t, speed in zip(times[:50], speeds[:50], strict=True):
+        slope = -0.775 * 0.75 / speed
+        held = solve_ivp(
+            lambda s, m, k=slope: [k * pressure(s, m[0])],
+            (t, t + period),
+            [mass],
+            rtol=1e-11,
+            atol=1e-11,
+        )
+        mass = held.y[0, -1]
+        found.append(pressure(t + period, mass))
+    error = np.abs(run["chambers/air/pressure"].values - found).max()
+    assert error < 1e-6 * np.ptp(found)

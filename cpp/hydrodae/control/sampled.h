@@ -61,7 +61,7 @@ template <class C> Fields<C> sampled_fields(Inputs inputs = Inputs::required) {
       {"inputs", &C::inputs, "-",
        "Channels that it reads, as in the results; of a vector one component: "
        "\"bodies/float/velocity.z\". In another unit of the same dimension where one stands behind "
-       "the name: \"joints/hinge/angle [deg]\".",
+       "the name: \"joints/hinge/angle [deg]\". \"time\" is the time.",
        inputs == Inputs::required},
       {"outputs", &C::outputs, "-",
        "Inputs of the scene that it writes, such as \"forces/pto/load\" (hydrodae check lists "

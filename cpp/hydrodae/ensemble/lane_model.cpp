@@ -380,7 +380,7 @@ HYDRODAE_WIDE void LaneModel::fill_rows() {
   joint::Geometry<Moving> g;
   for (Row& row : rows_) {
     const system::JointData& j = *row.joint;
-    if (last != &j)
+    if (!last || last != &j)
       g = geometry<Moving>(j);
     last = &j;
     const joint::Row<Moving> value = smooth_row<Moving>(row.kind, j, g);

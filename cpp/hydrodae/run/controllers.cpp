@@ -69,6 +69,10 @@ bool reached(double instant, double t) {
   return instant <= t * (1.0 + rounding);
 }
 
+/// Name of the input that is the time [s], and what stands for its column: it is no channel.
+constexpr std::string_view time_input = "time";
+constexpr std::size_t no_column = static_cast<std::size_t>(-1);
+
 template <class List> bool calls_functions(const List& forces) {
   return std::any_of(forces.begin(), forces.end(), [](const auto& force) {
     if constexpr (requires { force.function; })
@@ -115,8 +119,12 @@ control::Terminals find_terminals(const model::Controller& controller,
   try {
     for (const std::string& text : controller->inputs) {
       const SignalName named = signal_of(text);
-      std::size_t column = find_column(channels, named.name); // throws for an unknown name
-      out.inputs.push_back(terminal(named, find_channel(channels, named.name, column)->unit, 0.0));
+      const Channel* read = nullptr;
+      if (named.name != time_input) {
+        std::size_t column = find_column(channels, named.name); // throws for an unknown name
+        read = find_channel(channels, named.name, column);
+      }
+      out.inputs.push_back(terminal(named, read ? read->unit : "s", 0.0));
     }
     key = "outputs";
     for (const std::string& text : controller->outputs) {
@@ -187,7 +195,8 @@ Controllers::Controllers(const model::Scene& scene, const system::Regime& regime
     control::Terminals terminals = find_terminals(c, channels, inputs);
     terminals.end_time = scene.solver.end_time;
     for (const control::Terminal& input : terminals.inputs)
-      one.columns.push_back(find_column(channels, input.name));
+      one.columns.push_back(input.name == time_input ? no_column
+                                                     : find_column(channels, input.name));
     for (const control::Terminal& output : terminals.outputs) {
       one.inputs.push_back(&input_named(inputs, output.name));
       one.state.out.push_back(output.start);
@@ -255,7 +264,7 @@ bool Controllers::act(double t, bool event, std::span<const double> row) {
 /// Samples the law; the k-th instant is k T, without the rounding of a sum.
 void Controllers::One::sample(double t, std::span<const double> row) {
   for (std::size_t k = 0; k < columns.size(); ++k)
-    in[k] = terminals.inputs[k].to_own.back(row[columns[k]]);
+    in[k] = terminals.inputs[k].to_own.back(columns[k] == no_column ? t : row[columns[k]]);
   using Clock = std::chrono::steady_clock;
   const Clock::time_point before = Clock::now();
   law->sample(t, in, state.out);

@@ -115,7 +115,7 @@ private:
     double period = 0.0, delay = 0.0;
     bool outside = false;
     std::unique_ptr<control::Law> law;
-    std::vector<std::size_t> columns; ///< columns that it reads
+    std::vector<std::size_t> columns; ///< columns that it reads; the largest number: the time
     std::vector<Input*> inputs;       ///< inputs that it writes
     control::Terminals terminals;
     std::vector<double> in; ///< inputs in the controller's units
