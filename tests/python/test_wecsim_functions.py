@@ -1,0 +1,258 @@
+"""Laws of Simulink that become Python: translated ones, and controllers that wait to be written."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.python.test_wecsim_columns import add_function
+from tests.python.test_wecsim_controls import (
+    ACTUATED,
+    GAINS,
+    PI,
+    WAVES,
+    block,
+    controller,
+    motion,
+    wire,
+)
+from tests.python.wecsim_files import LIBRARIES, left_out, tables, write_one_body, write_slx
+
+import hydrodae
+from hydrodae.case.callbacks.files import read_functions
+from hydrodae.commands import cli
+from hydrodae.errors import CaseError
+from hydrodae.wecsim import convert
+from hydrodae.wecsim.m_python import head_of, python_lines
+from hydrodae.wecsim.m_text import NotEvaluated
+
+FRICTION = """function t = friction(vel, time, coulomb, width)
+    %{ block comments
+    %}
+    w = -vel(5);   % about -y
+    if (1 < time) && (time < 20) || w == 7
+        t = coulomb' * tanh(w/width) ...
+            + 2e-1*w.^2*sign(w) - min(abs(w), pi);
+    elseif w > 3
+        t = 0;
+    else
+        t = -w^2;
+    end
+end
+"""
+
+
+def translated(script: str, vectors: dict[str, dict[int, str]], *known: str):
+    """The function of Python of a script."""
+    lines = python_lines(script, known, vectors)
+    arguments = [*known, *(x for elements in vectors.values() for x in elements.values())]
+    text = "\n".join([f"def law({', '.join(arguments)}):", *(f"    {x}" for x in lines)])
+    names = {"math": math, "sign": np.sign}
+    exec(f"{text}\n    return {head_of(script)[0]}", names)
+    return names["law"]
+
+
+@pytest.mark.parametrize(
+    ("time", "rate", "expected"),
+    [
+        (5.0, 0.3, 4.0 * math.tanh(-0.6) - 0.2 * 0.09 - 0.3),
+        (5.0, -4.0, 4.0 * math.tanh(8.0) + 0.2 * 16.0 - math.pi),
+        (30.0, -4.0, 0.0),
+        (30.0, -2.0, -4.0),
+    ],
+)
+def test_a_matlab_function_becomes_python(time: float, rate: float, expected: float) -> None:
+    """-w^2 is -(w^2) in both languages; the closed form is written by hand."""
+    law = translated(FRICTION, {"vel": {5: "_rate"}}, "time", "coulomb", "width")
+    assert law(time, 4.0, 0.5, rate) == pytest.approx(expected)
+
+
+@pytest.mark.parametrize(
+    "statement",
+    [
+        "y = x(3)",
+        "y = [x 1]",
+        "y = 1 < x < 2",
+        "y = x^2^3",
+        "y(2) = x",
+        "y = unknown*x",
+        "y = besselj(0, x)",
+        "for i = 1:3, y = x; end",
+        "y = ~x",
+        "persistent n",
+    ],
+)
+def test_what_is_no_plain_arithmetic_is_refused(statement: str) -> None:
+    with pytest.raises(NotEvaluated, match="MATLAB function"):
+        python_lines(f"function y = f(x)\n{statement};\nend", ["x"], {})
+
+
+SATURATED = PI.replace(wire("33#out:1", "12#in:1"), "") + (
+    block(34, "Saturate", LowerLimit="-3e4", UpperLimit="5e4")
+    + wire("33#out:1", "34#in:1")
+    + wire("34#out:1", "12#in:1")
+)
+TABLE = (
+    motion("velocity")
+    + block(31, "Lookup_n-D", BreakpointsForDimension1="[-1 0 2]", Table="[7 0 -4]*1e3")
+    + wire("21#out:1", "31#in:1")
+    + wire("31#out:1", "12#in:1")
+)
+PID = (
+    motion("velocity")
+    + block(31, "PID Controller", Controller="PI", P="-2e5", I="-3e4", D="9")
+    + wire("21#out:1", "31#in:1")
+    + wire("31#out:1", "12#in:1")
+)
+
+
+@pytest.mark.parametrize(
+    ("blocks", "law"),
+    [
+        (SATURATED, lambda s, v: np.clip(-2e5 * v - 3e4 * s, -3e4, 5e4)),
+        (TABLE, lambda s, v: np.interp(v, [-1.0, 0.0, 2.0], [7e3, 0.0, -4e3])),
+        (PI.replace("-controller(1)", "controller(1)"), lambda s, v: 2e5 * v - 3e4 * s),
+    ],
+)
+def test_blocks_without_memory_become_python(tmp_path: Path, blocks: str, law) -> None:
+    source, case = tmp_path / "source", tmp_path / "case"
+    write_one_body(source, WAVES, GAINS.format(ki=3e4), controller(blocks), ACTUATED)
+    converted = convert(source, case)
+    assert left_out(converted) == ""
+    given = read_functions(case / "functions.py")["forces"]
+    for s, v in ((0.1, 0.2), (-0.3, -0.9), (0.5, 1.9), (0.0, 0.0)):
+        assert given["pto1_actuator"](0.0, s, v) == pytest.approx(law(s, v))
+    names = {force["name"]: force["type"] for force in tables(case)["force"]}
+    assert names == {"pto1_actuator": "python_load", "pto1": "pto_linear"}
+
+
+def test_a_pi_of_the_velocity_is_a_damper_and_a_spring(tmp_path: Path) -> None:
+    write_one_body(tmp_path / "source", WAVES, "", controller(PID), ACTUATED)
+    assert left_out(convert(tmp_path / "source", tmp_path / "case")) == ""
+    (force,) = tables(tmp_path / "case")["force"]
+    assert (force["damping"], force["stiffness"]) == (2e5, 3e4)
+
+
+def test_a_function_of_matlab_runs_with_the_case(tmp_path: Path, capsys) -> None:
+    """A drag by a power, with its number in the mask: the command line runs what it wrote."""
+    script = "function F = drag(vel, c)\nF = -c*vel(3)*abs(vel(3));\nend"
+    mask = "<Mask><MaskParameter Name='c'><Value>2e4</Value></MaskParameter></Mask>"
+    port = f"<System>{block('40::1', 'Inport', Port='1').replace('b40::1', 'vel')}</System>"
+    blocks = motion("velocity") + wire("13#out:1", "40#in:1") + wire("40#out:1", "12#in:1")
+    blocks += block(40, "SubSystem", mask + port, SFBlockType="MATLAB Function")
+    source, case = tmp_path / "source", tmp_path / "case"
+    write_one_body(source, WAVES, "pto(1).damping = 0;", controller(blocks), ACTUATED)
+    add_function(source / "one.slx", script, "b10/b40")
+    assert cli.main(["new", str(case), "--from", "wecsim", str(source)]) == 0
+    assert f"next: hydrodae run {case}/case.toml --functions {case}/functions.py" in (
+        capsys.readouterr().out
+    )
+    law = read_functions(case / "functions.py")["forces"]["pto1_actuator"]
+    assert law(0.0, 9.0, -1.5) == pytest.approx(2e4 * 1.5**2)
+    command = ["run", str(case / "case.toml"), "--set", "solver.end_time=30"]
+    assert cli.main(command) == 2
+    assert "--functions FILE.py" in capsys.readouterr().err
+    assert cli.main([*command, "--functions", str(case / "functions.py")]) == 0
+    results = hydrodae.Results.read(case / "case.h5")
+    v = np.asarray(results["joints/pto1/displacement_rate"])
+    expected = -2e4 * v * np.abs(v)
+    assert np.abs(np.asarray(results["forces/pto1_actuator/force"]) - expected).max() < 1e-6
+
+
+UNKNOWN = (
+    motion("velocity")
+    + block(31, "TransferFcn", Numerator="[5]", Denominator="[1 2]")
+    + block(32, "FromWorkspace", VariableName="waves.waveAmpTimeViz(:,[1,2])")
+    + block(33, "Sum", Inputs="++")
+    + wire("21#out:1", "31#in:1")
+    + wire("31#out:1", "33#in:1")
+    + wire("32#out:1", "33#in:2")
+    + wire("33#out:1", "12#in:1")
+)
+
+
+def test_what_is_not_converted_is_prepared(tmp_path: Path, capsys) -> None:
+    """The case runs with a load of zero; head, terminal and summary name it."""
+    source, case = tmp_path / "source", tmp_path / "case"
+    waves = WAVES + " waves.marker.location = [-5 0];"
+    write_one_body(source, waves, "pto(1).damping = 1e4;", controller(UNKNOWN), ACTUATED)
+    assert cli.main(["new", str(case), "--from", "wecsim", str(source)]) == 0
+    told = "force of pto(1) from Simulink is zero as yet: write pto1_actuator of functions.py"
+    assert told in capsys.readouterr().out
+    (law,) = tables(case)["controller"]
+    assert law["inputs"] == [
+        "joints/pto1/displacement",
+        "joints/pto1/displacement_rate",
+        "gauges/marker1/elevation",
+    ]
+    text = (case / "functions.py").read_text()
+    assert "def pto1_actuator(t, pto1_displacement, pto1_displacement_rate, marker1_ele" in text
+    assert "b10/b31 (TransferFcn): Numerator = [5]; Denominator = [1 2]; in:1 < 'b21'" in text
+    command = ["run", str(case / "case.toml"), "--set", "solver.end_time=2"]
+    assert cli.main([*command, "--functions", str(case / "functions.py")]) == 0
+    assert told in " ".join(capsys.readouterr().out.split())
+    assert any(told in line for line in tables(case)["missing"])
+    text = text.replace("return 0.0", "return -3e4 * pto1_displacement_rate")
+    (case / "functions.py").write_text(text)
+    run = hydrodae.run(case / "case.toml", **read_functions(case / "functions.py"))
+    work = [np.asarray(run[f"energy/work/{name}"])[-1] for name in ("pto1_actuator", "pto1")]
+    assert work[0] == pytest.approx(3.0 * work[1], rel=1e-2)  # dampings 3e4 and 1e4
+
+
+def test_an_actuated_joint_of_three_degrees_of_freedom(tmp_path: Path, monkeypatch) -> None:
+    """Loads along surge, heave and pitch, each in the direction of WEC-Sim."""
+    kind = "Floating (3DOF) Actuation Force"
+    monkeypatch.setitem(LIBRARIES, kind, f"WECSim_Lib_Constraints/{kind}")
+    source, case = tmp_path / "source", tmp_path / "case"
+    write_one_body(source, WAVES, "pto(1).damping = 0;")
+    text = (source / "wecSimInputFile.m").read_text()
+    text += "\nconstraint(1) = constraintClass('C'); constraint(1).location = [0 0 0];\n"
+    (source / "wecSimInputFile.m").write_text(text)
+    blocks = [
+        ("Body", "Rigid Body", "body(1)"),
+        ("World", "Global Reference Frame", "simu"),
+        ("Held", kind, "constraint(1)"),
+    ]
+    write_slx(source / "one.slx", blocks, ["2r-3l", "3r-1r"])
+    converted = convert(source, case, accept=None)
+    assert "force of constraint(1) from Simulink is zero as yet" in left_out(converted)
+    found = tables(case)
+    forces = [force["name"] for force in found["force"]]
+    assert forces == ["constraint1_surge", "constraint1_heave", "constraint1_pitch"]
+    loads = {"constraint1_actuator": lambda t, *inputs: (3e4, -2e4, 5e4)}
+    run = hydrodae.run(
+        case / "case.toml",
+        controllers=loads,
+        set={"solver.end_time": 0.5, "wave.waves.height": 0.0},
+    )
+    body = found["body"][0]["name"]
+    moved = (
+        np.asarray(run[f"bodies/{body}/position"])[-1]
+        - np.asarray(run[f"bodies/{body}/position"])[0]
+    )
+    turn = np.asarray(run[f"bodies/{body}/rotation"])[-1]
+    assert moved[0] > 0.0 > moved[2]
+    assert turn[1] > 0.0
+    assert abs(moved[1]) + abs(turn[0]) + abs(turn[2]) < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        (None, "no such file"),
+        ("x = 1", "sets no dictionary of functions"),
+        ("x = 1\nforces = [1]", "sets no dictionary of functions"),
+        ("x = 1\ny = = 2", r"laws\.py:2: SyntaxError"),
+        ("x = 1\n\n1 / 0", r"laws\.py:3: ZeroDivisionError"),
+    ],
+)
+def test_a_file_of_functions_that_cannot_be_used(
+    tmp_path: Path, text: str | None, why: str
+) -> None:
+    path = tmp_path / "laws.py"
+    if text is not None:
+        path.write_text(text)
+    with pytest.raises(CaseError, match=why):
+        read_functions(path)
