@@ -18,7 +18,7 @@ from tests.python.test_wecsim_controls import (
     motion,
     wire,
 )
-from tests.python.wecsim_files import LIBRARIES, left_out, tables, write_one_body, write_slx
+from tests.python.wecsim_files import LIBRARIES, append, left_out, tables, write_one_body, write_slx
 
 import hydrodae
 from hydrodae.case.callbacks.files import read_functions
@@ -201,41 +201,38 @@ def test_what_is_not_converted_is_prepared(tmp_path: Path, capsys) -> None:
     assert work[0] == pytest.approx(3.0 * work[1], rel=1e-2)  # dampings 3e4 and 1e4
 
 
-def test_an_actuated_joint_of_three_degrees_of_freedom(tmp_path: Path, monkeypatch) -> None:
+def test_an_actuated_joint_of_three_degrees_of_freedom(
+    two_bodies: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Loads along surge, heave and pitch, each in the direction of WEC-Sim."""
-    kind = "Floating (3DOF) Actuation Force"
+    kind, case = "Floating (3DOF) Actuation Force", tmp_path / "case"
     monkeypatch.setitem(LIBRARIES, kind, f"WECSim_Lib_Constraints/{kind}")
-    source, case = tmp_path / "source", tmp_path / "case"
-    write_one_body(source, WAVES, "pto(1).damping = 0;")
-    text = (source / "wecSimInputFile.m").read_text()
-    text += "\nconstraint(1) = constraintClass('C'); constraint(1).location = [0 0 0];\n"
-    (source / "wecSimInputFile.m").write_text(text)
     blocks = [
         ("Body", "Rigid Body", "body(1)"),
         ("World", "Global Reference Frame", "simu"),
         ("Held", kind, "constraint(1)"),
     ]
-    write_slx(source / "one.slx", blocks, ["2r-3l", "3r-1r"])
-    converted = convert(source, case, accept=None)
+    write_slx(two_bodies / "model.slx", blocks, ["2r-3l", "3r-1r"])
+    append(two_bodies, "waves = waveClass('noWave'); waves.period = 6;\n")
+    converted = convert(two_bodies, case, accept=None)
     assert "force of constraint(1) from Simulink is zero as yet" in left_out(converted)
     found = tables(case)
     forces = [force["name"] for force in found["force"]]
     assert forces == ["constraint1_surge", "constraint1_heave", "constraint1_pitch"]
-    loads = {"constraint1_actuator": lambda t, *inputs: (3e4, -2e4, 5e4)}
-    run = hydrodae.run(
-        case / "case.toml",
-        controllers=loads,
-        set={"solver.end_time": 0.5, "wave.waves.height": 0.0},
-    )
-    body = found["body"][0]["name"]
-    moved = (
-        np.asarray(run[f"bodies/{body}/position"])[-1]
-        - np.asarray(run[f"bodies/{body}/position"])[0]
-    )
-    turn = np.asarray(run[f"bodies/{body}/rotation"])[-1]
-    assert moved[0] > 0.0 > moved[2]
-    assert turn[1] > 0.0
-    assert abs(moved[1]) + abs(turn[0]) + abs(turn[2]) < 1e-9
+    moved = []
+    for sign in (1.0, -1.0):
+        loads = (3e5 * sign, -2e5 * sign, 5e6 * sign)
+        run = hydrodae.run(
+            case / "case.toml",
+            controllers={"constraint1_actuator": lambda t, *inputs, loads=loads: loads},
+            set={"solver.end_time": 0.5},
+        )
+        body = f"bodies/{found['body'][0]['name']}"
+        moved.append([np.asarray(run[f"{body}/{c}"])[-1] for c in ("position", "rotation")])
+    place, turn = (moved[0][k] - moved[1][k] for k in range(2))
+    assert place[0] > 1e-3 > -1e-3 > place[2]
+    assert turn[1] > 1e-3
+    assert abs(place[1]) + abs(turn[0]) + abs(turn[2]) < 1e-9
 
 
 @pytest.mark.parametrize(
