@@ -91,7 +91,7 @@ def row_of(example: dict[str, Any], clones: list[Path], work: Path) -> Row:
         row.converting = time.perf_counter() - begin
         begin = time.perf_counter()
         functions = read_functions(converted.functions) if converted.functions else {}
-        results = hydrodae.run(converted.case, **functions)
+        results = hydrodae.run(converted.case, set=example.get("set"), **functions)
         row.running = time.perf_counter() - begin
         if results.status != "completed":
             return Row(folder, f"no: {results.status}", None, "", row.converting, row.running)

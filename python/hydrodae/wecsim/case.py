@@ -199,9 +199,9 @@ def _database(
             continue
         if isinstance(stated, list):
             stated = stated[0]
-            read.remarks.left_out(
-                read.place(item.line), f"{item.title}: variable hydrodynamics; the first database"
-            )
+            told = f"{item.title}: variable hydrodynamics; the first database is taken, and "
+            told += "[[pose_table]] blends those of several poses (docs/cases.md)"
+            read.remarks.left_out(read.place(item.line), told)
         wet[number] = name
         sources.setdefault(str(stated), []).append(number)
     simu = read.get("simu")
