@@ -48,34 +48,17 @@ def python_law(actuator: Block, core: str, read: InputFile, start: float) -> lis
     lines += [*diagram.lines, f"return {result}"]
     text = "\n".join(["def law(_t, _s, _rate):", *(f"    {line}" for line in lines)])
     names: dict[str, Any] = {}
-    exec(helpers(text) + text, names)
+    exec(imports(text) + text, names)
     for motion in (-1.0, 0.0, 1.0):  # a name without a value, or no number
         float(names["law"](0.0, motion, motion))
     return lines
 
 
-#: What laws use, at the head of their file.
-_HELPERS = {
-    "math.": "import math\n",
-    "table(": "from bisect import bisect_right\n",
-    "sign(": """
-
-def sign(x):
-    return (x > 0.0) - (x < 0.0)
-""",
-    " table(": '''
-
-def table(x, at, values):
-    """Straight lines between points, that of the first or last interval beyond them."""
-    k = min(max(bisect_right(at, x) - 1, 0), len(at) - 2)
-    return values[k] + (values[k + 1] - values[k]) * (x - at[k]) / (at[k + 1] - at[k])
-''',
-}
-
-
-def helpers(law: str) -> str:
-    """Imports and functions that the text of laws uses."""
-    return "".join(text for use, text in _HELPERS.items() if use in law)
+def imports(law: str) -> str:
+    """Imports that the text of laws needs."""
+    used = [name for name in ("sign", "table") if re.search(rf"\b{name}\(", law)]
+    own = f"from hydrodae.wecsim.blocks import {', '.join(used)}\n" if used else ""
+    return "\n".join(part for part in ("import math\n" if "math." in law else "", own) if part)
 
 
 class _Diagram:
@@ -113,9 +96,6 @@ class _Diagram:
             raise NotEvaluated("its signals run in a loop")
         return self.value(*driver, depth + 1)
 
-    def same(self, block: Block, depth: int) -> str:
-        return self.input(block, 1, depth)
-
     def gain(self, block: Block, depth: int) -> str:
         return f"{self.tracer.number(block, 'Gain', '1')!r} * ({self.input(block, 1, depth)})"
 
@@ -136,11 +116,8 @@ class _Diagram:
         low, high = (self.tracer.number(block, f"{s}Limit", d) for s, d in _LIMITS)
         return f"min(max({self.input(block, 1, depth)}, {low!r}), {high!r})"
 
-    def absolute(self, block: Block, depth: int) -> str:
-        return f"abs({self.input(block, 1, depth)})"
-
-    def signum(self, block: Block, depth: int) -> str:
-        return f"sign({self.input(block, 1, depth)})"
+    def plain(self, block: Block, depth: int) -> str:
+        return f"{_FUNCTIONS[block.kind]}({self.input(block, 1, depth)})"
 
     def look_up(self, block: Block, depth: int) -> str:
         values = block.parameters
@@ -209,13 +186,14 @@ _KINDS = {
     "Sum": "sum",
     "Product": "product",
     "Saturate": "saturate",
-    "Abs": "absolute",
-    "Signum": "signum",
+    "Abs": "plain",
+    "Signum": "plain",
+    "From": "plain",
     "Lookup_n-D": "look_up",
     "Lookup": "look_up",
     "MATLAB Function": "function",
-    "From": "same",
 }
+_FUNCTIONS = {"Abs": "abs", "Signum": "sign", "From": ""}
 
 
 def _sum(form: dict[str, float]) -> str:

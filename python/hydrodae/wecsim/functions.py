@@ -6,7 +6,7 @@ import textwrap
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from hydrodae.wecsim.diagrams import helpers
+from hydrodae.wecsim.diagrams import imports
 
 #: Name of the file beside the case.
 FUNCTIONS = "functions.py"
@@ -90,8 +90,8 @@ class FunctionFile:
         if names:
             text += "\n" + "\n".join(textwrap.wrap(_PREPARED.format(names=names), 98)) + "\n"
         text += '"""\n'
-        here = helpers("\n".join("\n".join(law.text) for law in found["forces"]))
-        text += ("" if here.startswith("\n") else "\n" * bool(here)) + here
+        here = imports("\n".join("\n".join(law.text) for law in found["forces"]))
+        text += f"\n{here}" if here else ""
         text += "".join("\n\n" + "\n".join(law.text) + "\n" for law in self.laws)
         for name, laws in used.items():
             entries = ", ".join(f'"{law.name}": {law.function}' for law in laws)

@@ -97,7 +97,8 @@ def _powers(power: xr.DataArray, half: xr.DataArray | None) -> list[str]:
 def _points(results: xr.Dataset, *powers: list[str]) -> list[str]:
     """A line a point: what varies there, with its unit at the top, the power, and the results."""
     wanted = tomllib.loads(results.attrs.get("study", "")).get("result", {})
-    varied, measured = [], []
+    varied: list[list[str]] = []
+    measured: list[list[str]] = []
     for name, column in results.variables.items():
         if len(column.dims) == 1 and ("key" in column.attrs or name in wanted):
             cells = [with_unit(results, str(name)), *map(_value, column.to_numpy())]
