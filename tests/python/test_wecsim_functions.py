@@ -59,7 +59,7 @@ def translated(script: str, vectors: dict[str, dict[int, str]], *known: str):
         (5.0, 0.3, 4.0 * math.tanh(-0.6) - 0.2 * 0.09 - 0.3),
         (5.0, -4.0, 4.0 * math.tanh(8.0) + 0.2 * 16.0 - math.pi),
         (30.0, -4.0, 0.0),
-        (30.0, -2.0, -4.0),
+        (30.0, -2.5, -6.25),
     ],
 )
 def test_a_matlab_function_becomes_python(time: float, rate: float, expected: float) -> None:
