@@ -20,6 +20,10 @@ from hydrodae.wecsim.topology import Link
 _WORDS = {"displacement_2": "surge", "displacement": "heave", "angle": "pitch"}
 
 
+#: A sample ends a step of the run: shorter ones than this cost more than they give [s].
+_SHORTEST = 0.01
+
+
 class Actuators:
     """Finds the laws of actuators, and collects those that become Python.
 
@@ -77,7 +81,7 @@ class Actuators:
         """Write the controllers to be written, once all joints and gauges are in the case."""
         markers = text.lines.count("[[gauge]]")
         simu = self.read.get("simu")
-        period = 0.1 if simu is None else simu.number_of("dt", 0.1)
+        period = 0.1 if simu is None else max(simu.number_of("dt", 0.1), _SHORTEST)
         for link, place, name, why in self.waiting:
             title, law = link.item.title, f"{name}_actuator"
             outputs = []
