@@ -25,6 +25,7 @@ import figures  # type: ignore[import-not-found] # stands beside this file
 import survey  # type: ignore[import-not-found] # stands beside this file
 
 import hydrodae
+from hydrodae.case.callbacks.files import read_functions
 from hydrodae.errors import HydrodaeError
 from hydrodae.wecsim import convert
 
@@ -89,7 +90,8 @@ def row_of(example: dict[str, Any], clones: list[Path], work: Path) -> Row:
         converted = convert(found[0], work, accept=None, define=example.get("define"))
         row.converting = time.perf_counter() - begin
         begin = time.perf_counter()
-        results = hydrodae.run(converted.case)
+        functions = read_functions(converted.functions) if converted.functions else {}
+        results = hydrodae.run(converted.case, set=example.get("set"), **functions)
         row.running = time.perf_counter() - begin
         if results.status != "completed":
             return Row(folder, f"no: {results.status}", None, "", row.converting, row.running)

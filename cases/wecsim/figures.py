@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -77,6 +78,8 @@ def make(example: dict[str, Any], results: Results, case: Path, folder: Path) ->
         "control": control,
         "conditions": conditions,
         "gauges": gauges,
+        "orifice": orifice,
+        "turbine": turbine,
         "yaw": yaw,
         "faced": faced,
         "pitch": pitch,
@@ -378,6 +381,38 @@ def gauges(results: Results, case: Path) -> Figure:
         float(np.mean(airy**2)),
         "closed form",
     )
+
+
+def orifice(results: Results, case: Path) -> Figure:
+    """Mean power of an orifice after half of the time, and C A sqrt(2/rho) |p|^1.5 at its pressure.
+
+    The reference is of air that keeps its density, as WEC-Sim has it.
+    """
+    tables = tables_of(case)
+    hole, rho = tables["outlet"][0], tables["environment"]["air_density"]
+    size = hole["coefficient"] * hole["area"] * math.sqrt(2.0 / rho)
+    return _air(results, hole["name"], lambda p: size * np.abs(p) ** 1.5, "its formula at this p")
+
+
+def turbine(results: Results, case: Path) -> Figure:
+    """Mean pneumatic power of a Wells turbine after half of the time, and K D p^2/(rho W).
+
+    W is the speed of the rotor in the run.
+    """
+    tables = tables_of(case)
+    wells, rho = tables["outlet"][0], tables["environment"]["air_density"]
+    speed = np.asarray(results[f"outlets/{wells['name']}/rotor_speed"]).ravel()
+    factor = wells["flow_slope"] * wells["diameter"] / rho / speed
+    return _air(results, wells["name"], lambda p: factor * p**2, "its formula at this p")
+
+
+def _air(results: Results, name: str, law: Callable[[np.ndarray], np.ndarray], how: str) -> Figure:
+    time = time_of(results)
+    last = time >= 0.5 * time[-1]
+    power = np.asarray(results[f"outlets/{name}/power"]).ravel()
+    exact = law(np.asarray(results[f"outlets/{name}/pressure_drop"]).ravel())
+    values = (float(np.mean(x[last])) for x in (power, exact))
+    return Figure(f"mean pneumatic power of {name} after half of the time, W", *values, how)
 
 
 def yaw(results: Results, case: Path) -> Figure:

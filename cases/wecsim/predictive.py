@@ -22,18 +22,7 @@ from hydrodae.wecsim import convert
 from hydrodae.wecsim.m_file import evaluate, read_input
 
 ORDER, WEIGHT = 16, 1e-7  # -, m/(N s)
-CONTROLLER = """
-[[force]]
-type = "pto_general"
-name = "pto1"
-joint = "pto1"
-[[controller]]
-type = "python"
-name = "law"
-inputs = ["joints/pto1/displacement", "joints/pto1/displacement_rate"]
-outputs = ["forces/pto1/load"]
-period = {period}
-"""
+NAME = "pto1_actuator"  # the controller that the conversion prepares
 
 
 def figures(case: Path, folder: Path, seeds: int) -> dict[str, float]:
@@ -42,7 +31,7 @@ def figures(case: Path, folder: Path, seeds: int) -> dict[str, float]:
     Parameters
     ----------
     case : Path
-        The converted case, which lacks the controller.
+        The converted case, whose controller is to be written.
     folder : Path
         Of the example.
     seeds : int
@@ -54,10 +43,7 @@ def figures(case: Path, folder: Path, seeds: int) -> dict[str, float]:
         return float(evaluate(read, f"controller(1).modelPredictiveControl.{name}"))
 
     period = given("dt")
-    file = case.with_name("predictive.toml")
-    text = case.read_text(encoding="utf-8") + CONTROLLER.format(period=period)
-    file.write_text(text, encoding="utf-8")
-    plant = Plant(file, "pto1")
+    plant = Plant(case, "pto1")
     rows = []
     for seed in range(1, seeds + 1):
         law = ModelPredictive(
@@ -72,12 +58,13 @@ def figures(case: Path, folder: Path, seeds: int) -> dict[str, float]:
             stroke=(-given("maxPos"), given("maxPos")),
             velocity_limit=given("maxVel"),
         )
-        run = hydrodae.run(file, controllers={"law": law}, set={"wave.waves.seed": seed})
-        time, load = np.asarray(run.time), np.asarray(run["controllers/law/output"])
-        last = time >= time[-1] - 10.0 * tables_of(file)["wave"][0]["peak_period"]
+        values = {"wave.waves.seed": seed, f"controller.{NAME}.period": period}
+        run = hydrodae.run(case, controllers={NAME: law}, set=values)
+        time, load = np.asarray(run.time), np.asarray(run[f"controllers/{NAME}/output"])
+        last = time >= time[-1] - 10.0 * tables_of(case)["wave"][0]["peak_period"]
         rows.append(
             (
-                np.mean(np.asarray(run["forces/pto1/power_absorbed"])[last]),
+                np.mean(np.asarray(run[f"forces/{NAME}/power_absorbed"])[last]),
                 np.abs(run["joints/pto1/displacement"]).max(),
                 np.abs(run["joints/pto1/displacement_rate"]).max(),
                 np.abs(load).max(),
@@ -96,8 +83,6 @@ if __name__ == "__main__":
     parser.add_argument("folder", type=Path, help="Controls/MPC of WEC-Sim's applications")
     source = parser.parse_args().folder
     with tempfile.TemporaryDirectory() as name:
-        found = figures(
-            convert(source, Path(name) / "case", accept=["controller"]).case, source, 10
-        )
+        found = figures(convert(source, Path(name) / "case").case, source, 10)
     for quantity, value in found.items():
         print(f"{quantity}: {value:.5g}")

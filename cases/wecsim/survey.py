@@ -20,6 +20,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import hydrodae
+from hydrodae.case.callbacks.files import read_functions
 from hydrodae.errors import CaseError, HydrodaeError
 from hydrodae.wecsim import convert
 from hydrodae.wecsim.case import INPUT
@@ -94,7 +95,8 @@ def row_of(
         row.missing = [str(remark) for remark in converted.remarks.of("left out")]
         end = hydrodae.Case.read(converted.case).end_time
         shorter = {} if seconds is None else {"solver.end_time": min(end, seconds)}
-        status = hydrodae.run(converted.case, set=shorter).status
+        functions = read_functions(converted.functions) if converted.functions else {}
+        status = hydrodae.run(converted.case, set=shorter, **functions).status
         row.stop = "" if status == "completed" else status
         converted.remarks.check(())
         row.first = not row.stop and not define

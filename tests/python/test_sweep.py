@@ -86,6 +86,25 @@ def test_one_row_a_point_is_printed(folder: Path) -> None:
     ]
 
 
+def test_results_of_each_point_are_printed(folder: Path) -> None:
+    """The rate of the guide at the start is 1 m/s; power or not, a row has the results."""
+    study = write_study(
+        folder,
+        '[grid]\n"force.pto.damping" = [2e3, 4e3]\n'
+        '[result.fastest]\nchannel = "joints/guide/displacement_rate"\nstatistic = "max"\n',
+    )
+    results = hydrodae.sweep(study, folder / "study.nc", jobs=1)
+    power = ["0.125", "0.125"]  # 1 J in 8 s
+    fastest = [f"{float(x):.6g}" for x in results["fastest"]]
+    lines = [line.split() for line in text(results).splitlines()]
+    assert lines[-3][1:4] == ["mean", "power", "fastest"]
+    assert [line[1:] for line in lines[-2:]] == [
+        [p, f] for p, f in zip(power, fastest, strict=True)
+    ]
+    alone = text(results.drop_vars("mean_power_absorbed")).splitlines()
+    assert [line.split()[1] for line in alone[-2:]] == fastest
+
+
 def test_points_of_all_kinds(folder: Path) -> None:
     (folder / "points.csv").write_text("body.float.mass, solver.end_time\n2.0, 1.0\n3.0, 2.0\n")
     study = read_study(

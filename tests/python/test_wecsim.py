@@ -22,6 +22,7 @@ from tests.python.wecsim_files import (
 
 import hydrodae
 from hydrodae import hdb
+from hydrodae.case.callbacks.files import read_functions
 from hydrodae.commands import cli
 from hydrodae.errors import CaseError
 from hydrodae.wecsim import convert
@@ -222,9 +223,9 @@ def test_what_the_case_does_not_hold_is_listed(two_bodies: Path, tmp_path: Path,
     case = str(tmp_path / "case")
     command = ["new", case, "--from", "wecsim", str(two_bodies)]
     assert cli.main(command) == 2
-    assert "--accept cable --accept controller writes it anyway" in capsys.readouterr().err
+    assert "--accept cable writes it anyway" in capsys.readouterr().err
     assert not Path(case).exists()
-    command += ["--accept", "cable", "--accept", "controller"]
+    command += ["--accept", "cable"]
     assert cli.main([*command, "--accept", "current"]) == 2
     assert "--accept 'current': this is not missing" in capsys.readouterr().err
     assert cli.main(command) == 0
@@ -237,7 +238,9 @@ def test_what_the_case_does_not_hold_is_listed(two_bodies: Path, tmp_path: Path,
     assert "model.slx, block 'Rope': cable(1) is not in wecSimInputFile.m" in out
     assert "model.slx, block 'PTO': force of pto(1) from Simulink" in out
     assert f"next: hydrodae run {case}" in out
-    notes = hydrodae.run(Path(case) / "case.toml", set={"solver.end_time": 1.0}).notes
+    functions = read_functions(Path(case) / "functions.py")
+    shorter = {"solver.end_time": 1.0}
+    notes = hydrodae.run(Path(case) / "case.toml", set=shorter, **functions).notes
     for part in ("block 'Rope': cable(1)", "body(1).unknownField", "force of pto(1)"):
         assert any(note.startswith("missing in the case: ") and part in note for note in notes)
 

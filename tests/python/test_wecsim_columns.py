@@ -71,10 +71,10 @@ def test_bending_modes_of_a_barge(source: Path, tmp_path: Path, reference: Path)
         assert abs(found[name][0]) == pytest.approx(expected, rel=2e-3)
 
 
-def add_function(path: Path, head: str) -> None:
-    """Add a MATLAB function to a model."""
+def add_function(path: Path, text: str, name: str = "law") -> None:
+    """Add a MATLAB function to a model, of the block of this name."""
     with zipfile.ZipFile(path, "a") as archive:
-        script = f'<C><P Name="script">{escape(head)}</P></C>'
+        script = f'<C><P Name="name">{name}</P><P Name="script">{escape(text)}</P></C>'
         archive.writestr("simulink/stateflow/chart_1.xml", script)
 
 

@@ -100,8 +100,8 @@ void check_shared_mass(const Scene& scene, const Mode& mode) {
   const std::vector<double>&with = mode.mass_with_modes, &rigid = mode.mass_with_motions;
   if (!with.empty() && std::ssize(with) != before)
     refuse(entry, "mass_with_modes",
-           "has " + std::to_string(with.size()) + " masses, and body " + in_quotes(mode.body) +
-               " has " + std::to_string(before) +
+           "has " + std::to_string(with.size()) + (with.size() == 1 ? " mass" : " masses") +
+               ", and body " + in_quotes(mode.body) + " has " + std::to_string(before) +
                " modes before this one in the case: give one mass for each of them");
   if (!rigid.empty() && rigid.size() != 6)
     refuse(entry, "mass_with_motions",

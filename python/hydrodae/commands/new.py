@@ -64,12 +64,13 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _tell(case: Path) -> None:
+def _tell(case: Path, functions: Path | None = None) -> None:
     print(f"written: {case.parent}")
     for file in sorted(case.parent.iterdir()):
         print(f"  {file.name}")
     results = case.with_suffix(".h5")
-    print(f"next: hydrodae run {shlex.quote(str(case))}")
+    more = f" --functions {shlex.quote(str(functions))}" if functions else ""
+    print(f"next: hydrodae run {shlex.quote(str(case))}{more}")
     print(f"      hydrodae plot {shlex.quote(str(results))}")
 
 
@@ -88,7 +89,7 @@ def _convert(arguments: argparse.Namespace) -> int:
             raise CaseError(f"--define {text}: expected NAME=VALUE, such as --define option=1")
     converted = convert(path, arguments.kind, accept=arguments.accept, define=define)
     _print_remarks(converted)
-    _tell(converted.case)
+    _tell(converted.case, converted.functions)
     return 0
 
 

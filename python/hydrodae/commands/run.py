@@ -61,6 +61,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="go on from the checkpoint of a run that was cut off, or stopped",
     )
+    parser.add_argument(
+        "--functions",
+        metavar="FILE",
+        help="a file of Python that sets forces, controllers or drives: functions by the names of "
+        "the case. The file is executed",
+    )
     add_json(parser)
     add_quiet(parser, "no progress, no summary")
 
@@ -81,6 +87,7 @@ def run(arguments: argparse.Namespace) -> int:
     from contextlib import nullcontext
     from pathlib import Path
 
+    from hydrodae.case.callbacks.files import read_functions
     from hydrodae.commands.arguments import given_case
     from hydrodae.errors import CaseError, NotReproducible
     from hydrodae.simulation import simulate
@@ -105,6 +112,8 @@ def run(arguments: argparse.Namespace) -> int:
         )
     options = ("verify", "checkpoint", "resume", "strict")
     how = {name: getattr(arguments, name) for name in options}
+    if arguments.functions:
+        how |= read_functions(arguments.functions)
     silent = arguments.quiet or arguments.json
     unknown = None
     try:

@@ -8,6 +8,7 @@ between a hull and its column.
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +26,7 @@ from hydrodae.wecsim.text import CaseText
 
 #: Arguments by which the function of an orifice is known.
 _ORIFICE = ("A1", "A2", "C", "rhoAir")
+_HEAD = re.compile(r"\s*function\b[^(]*\(([^)]*)\)")
 #: Text of a parameter by which the law of a chamber is known.
 _CHAMBER = "airChamber(1)"
 #: Height of a chamber whose air the source takes as incompressible [m].
@@ -65,7 +67,9 @@ def _numbers(read: InputFile, *names: str) -> list[float]:
 
 def has_orifice(model: Model) -> bool:
     """Whether a function of the model takes the numbers of an orifice."""
-    return any(set(_ORIFICE) <= arguments for arguments in model.functions)
+    heads = (_HEAD.match(script) for script in model.functions.values())
+    arguments = ({word.strip() for word in head[1].split(",")} for head in heads if head)
+    return any(set(_ORIFICE) <= names for names in arguments)
 
 
 def add_orifice(

@@ -15,11 +15,13 @@ from hydrodae.case.case import Case
 from hydrodae.errors import CaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.preparation.mirroring import mirrored
+from hydrodae.wecsim.actuators import Actuators, parts_of
 from hydrodae.wecsim.air import add_orifice, atmosphere, has_orifice
 from hydrodae.wecsim.bodies import Bodies
 from hydrodae.wecsim.cables import add_cable, node_keys
 from hydrodae.wecsim.conditions import STUDY, find_conditions, write_study
 from hydrodae.wecsim.drift import add_drift
+from hydrodae.wecsim.functions import FUNCTIONS, FunctionFile
 from hydrodae.wecsim.hydro import find_source, read_database, with_radiation
 from hydrodae.wecsim.links import Links
 from hydrodae.wecsim.m_file import read_input
@@ -54,10 +56,13 @@ class Converted:
         The case file.
     remarks : Remarks
         What it does not hold, and what was assumed.
+    functions : Path, optional
+        Laws of the case in Python, which its run needs: `hydrodae run --functions`.
     """
 
     case: Path
     remarks: Remarks
+    functions: Path | None = None
 
 
 def convert(
@@ -100,7 +105,7 @@ def convert(
     made = not target.exists()
     target.mkdir(parents=True, exist_ok=True)
     try:
-        text = _write(read, model, topology, database, radiation, why, modes, target)
+        text, functions = _write(read, model, topology, database, radiation, why, modes, target)
         if conditions is not None:
 
             def again(other: InputFile) -> CaseText:
@@ -110,19 +115,26 @@ def convert(
                     keys["frequency"] = frequency
                 found = find_topology(model, other)
                 _keep_to_yaw(other, found, database)
-                return _write(other, model, found, database, keys, why, modes, target)
+                text, laws = _write(other, model, found, database, keys, why, modes, target)
+                if str(laws) != str(functions):
+                    raise CaseError(f"the laws of {FUNCTIONS} differ between them")
+                return text
 
             write_study(conditions, read, str(text), again, target)
         _unused(read)
+        if functions.laws and (target / STUDY).is_file():
+            told = f"{STUDY}: `hydrodae sweep` takes no {FUNCTIONS}; run the conditions by --set"
+            read.remarks.left_out(read.path.name, told)
         if accept is not None:
             read.remarks.check(accept)
         text.head("missing", [str(remark) for remark in read.remarks.of("left out")])
         if database is not None:
             database.write(target / "hydro.h5")
+        functions.write(target)
         case = target / "case.toml"
         case.write_text(str(text), encoding="utf-8")
         _check(case, read)
-        return Converted(case, read.remarks)
+        return Converted(case, read.remarks, target / FUNCTIONS if functions.laws else None)
     except BaseException:
         for file in [
             *target.glob("*.stl"),
@@ -130,6 +142,7 @@ def convert(
             *target.glob("*.csv"),
             target / "case.toml",
             target / "hydro.h5",
+            target / FUNCTIONS,
             target / STUDY,
             target / POWERS,
         ]:
@@ -186,9 +199,9 @@ def _database(
             continue
         if isinstance(stated, list):
             stated = stated[0]
-            read.remarks.left_out(
-                read.place(item.line), f"{item.title}: variable hydrodynamics; the first database"
-            )
+            told = f"{item.title}: variable hydrodynamics; the first database is taken, and "
+            told += "[[pose_table]] blends those of several poses (docs/cases.md)"
+            read.remarks.left_out(read.place(item.line), told)
         wet[number] = name
         sources.setdefault(str(stated), []).append(number)
     simu = read.get("simu")
@@ -248,7 +261,7 @@ def _write(
     why: str,
     modes: dict[str, Modes],
     target: Path,
-) -> CaseText:
+) -> tuple[CaseText, FunctionFile]:
     simu = read.get("simu")
     rho = 1000.0 if simu is None else simu.number_of("rho", 1000.0)
     gravity = 9.81 if simu is None else simu.number_of("gravity", 9.81)
@@ -273,9 +286,12 @@ def _write(
         add_drift(text, read, database)
     bodies = Bodies(read, topology.names, database, rho, target, modes)
     carriers = _carriers(text, topology, bodies)
-    links = Links(read, topology, bodies, carriers)
+    bodies_by_block = parts_of(topology.names, topology.blocks)
+    actuators = Actuators(read, model.path.name, bodies_by_block)
+    links = Links(read, topology, bodies, carriers, actuators)
     for link in topology.links:
         links.add(text, link, model.place(link.block))
+    actuators.prepare(text)
     for cable in topology.cables:
         add_cable(text, cable, topology, carriers, read)
     if links.stages is not None:
@@ -293,7 +309,7 @@ def _write(
         held = topology.groups[group].bodies
         add_mooring(text, block, model.place(block), held[0] if held else None, bodies, read)
     add_solver(text, read)
-    return text
+    return text, actuators.file
 
 
 def _keep_to_yaw(read: InputFile, topology: Topology, database: HydroDatabase | None) -> None:

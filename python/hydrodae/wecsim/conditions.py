@@ -28,6 +28,8 @@ from hydrodae.wecsim.text import CaseText
 STUDY = "conditions.toml"
 #: Most conditions; each is converted, in about 0.01 s.
 _MOST = 10_000
+#: Limit of a spectrum that states no `lost_variance`.
+_LOSS = 0.1
 _FILES = ("mcrMatFile", "mcrExcelFile")
 _SHEET = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 
@@ -226,16 +228,18 @@ def write_study(
         for name in _without_effect(header, rows, keys_of):
             text = f"conditions: nothing in the case depends on {name}"
             read.remarks.left_out(conditions.place, text)
-        for number, row in enumerate(rows, 1):
-            points.append(keys_of(dict(zip(header, row, strict=True))))
-            if different := sorted(set(points[-1]) ^ set(first)):
-                names = ", ".join(different[:3])
-                text = f"condition {number} has other keys than the case: {names}"
-                read.remarks.left_out(conditions.place, text)
-                return
+        points = [keys_of(dict(zip(header, row, strict=True))) for row in rows]
     except (NotEvaluated, CaseError) as error:
         read.remarks.left_out(conditions.place, f"conditions: {error}")
         return
+    for key in {k for point in (first, *points) for k in point if k.endswith(".lost_variance")}:
+        for point in (first, *points):
+            point.setdefault(key, _LOSS)
+    for number, point in enumerate(points, 1):
+        if different := sorted(set(point) ^ set(first)):
+            text = f"condition {number} has other keys than the case: {', '.join(different[:3])}"
+            read.remarks.left_out(conditions.place, text)
+            return
     varied = [k for k in first if any(point[k] != first[k] for point in points)]
     if not varied:
         return

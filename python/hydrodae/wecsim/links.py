@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 
 from hydrodae.support.arrays import Array
+from hydrodae.wecsim.actuators import Actuators
 from hydrodae.wecsim.air import add_turbine, find_air
 from hydrodae.wecsim.bodies import Bodies
 from hydrodae.wecsim.m_text import NotEvaluated, understood
 from hydrodae.wecsim.objects import InputFile, Item
 from hydrodae.wecsim.ptosim import Mount, write
 from hydrodae.wecsim.ptosim_trace import find_chain
-from hydrodae.wecsim.signals import Law, find_law
+from hydrodae.wecsim.signals import Law
 from hydrodae.wecsim.stages import Stages
 from hydrodae.wecsim.text import CaseText
 from hydrodae.wecsim.topology import Link, Topology, plain_name, unique
@@ -44,11 +45,18 @@ class Links:
     bodies : Bodies
     carriers : dict of str
         The body of the case that stands for each group, or ground.
+    actuators : Actuators
     """
 
     def __init__(
-        self, read: InputFile, topology: Topology, bodies: Bodies, carriers: dict[int, str]
+        self,
+        read: InputFile,
+        topology: Topology,
+        bodies: Bodies,
+        carriers: dict[int, str],
+        actuators: Actuators,
     ) -> None:
+        self.actuators = actuators
         self.read, self.topology, self.bodies, self.carriers = read, topology, bodies, carriers
         self.taken: set[str] = set()
         self.kinds: dict[str, str] = {}
@@ -60,6 +68,7 @@ class Links:
         base, follower = groups[link.base], groups[link.follower]
         free = link.kind == "Floating (6DOF)" or (
             link.kind == "Floating (3DOF)"
+            and not link.actuated
             and base.motion == "fixed"
             and follower.motion == "planar"
         )
@@ -77,6 +86,8 @@ class Links:
             keys["axis"] = axis
         if link.kind == "Universal":
             keys["axis_x"] = link.axis("x")
+        elif link.actuated and link.kind == "Floating (3DOF)":
+            keys["axis_x"] = link.axis("z")  # displacement is heave, displacement_2 surge
         start = self._start(link, axis)
         if extension := self._extension(link):
             start += extension
@@ -86,7 +97,10 @@ class Links:
         chained = link.is_pto and (
             self._air(text, link, place, name) or self._chain(text, link, place, name, start)
         )
-        law = self._law(link, place) if link.actuated and not chained else None
+        self.actuators.parts[id(link.block)] = ("joint", name, link.kind)
+        law = None
+        if link.actuated and not chained:
+            law = self.actuators.law(text, link, place, name, start)
         if link.is_pto:
             self._take_off(text, link, name, start, law or Law())
         self._stops(text, link, name, start)
@@ -129,25 +143,6 @@ class Links:
             del text.lines[before:]
             self.read.remarks.left_out(place, f"PTO-Sim at {link.item.title}: {error}", "pto")
         return True
-
-    def _law(self, link: Link, place: str) -> Law | None:
-        """The law of an actuator; one that is not understood is left out."""
-        title = link.item.title
-        if "Motion" in link.block.kind:
-            text = f"motion of {title} from Simulink: see [[constraint]]"
-            self.read.remarks.left_out(place, text, "controller")
-            return None
-        try:
-            with understood():
-                law = find_law(link.block, link.kind, self.read)
-            if law == Law():
-                text = f"force of {title} from Simulink is zero with the gains of the input file"
-                self.read.remarks.assumed(place, text)
-            return law
-        except NotEvaluated as error:
-            text = f"force of {title} from Simulink: {error}; see [[controller]] and python_load"
-            self.read.remarks.left_out(place, text, "controller")
-        return None
 
     def _name(self, item: Item) -> str:
         name = item.arguments[0] if item.arguments else None

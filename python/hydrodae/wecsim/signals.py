@@ -12,8 +12,10 @@ from hydrodae.wecsim.objects import InputFile
 from hydrodae.wecsim.slx import Block
 
 #: Element of a response that is the motion of the joint: z of six, or the turn about y.
-_ELEMENT = {"Translational": 3.0, "Rotational": 5.0}
+ELEMENT = {"Translational": 3.0, "Rotational": 5.0}
 _DEEPEST = 100
+_RATE = ("position", "velocity")
+_STARTS = ("InitialConditionForIntegrator",)
 #: Blocks whose output is zero as long as their input is.
 _AT_REST = ("DiscreteTransferFcn", "TransferFcn", "DiscreteFilter", "Saturate", "RateTransition")
 
@@ -58,14 +60,14 @@ def find_law(actuator: Block, core: str, read: InputFile) -> Law:
     NotEvaluated
         A block on the way is not known here, or the law is not linear.
     """
-    if core not in _ELEMENT:
+    if core not in ELEMENT:
         raise NotEvaluated(f"a law for a joint of type {core}")
     driver = actuator.drivers.get("in:1")
     if driver is None:
         raise NotEvaluated("nothing drives it that could be followed")
     block, port = driver
     if block.kind == "MATLAB Function":
-        return _Tracer(actuator, _ELEMENT[core], read).function(block, port)
+        return Tracer(actuator, ELEMENT[core], read).function(block, port)
     return linear_law(actuator, actuator, core, read)
 
 
@@ -77,7 +79,7 @@ def linear_law(fed: Block, actuator: Block, core: str, read: InputFile) -> Law:
     NotEvaluated
         A block on the way is not known here, or the law is not linear.
     """
-    form = _Tracer(actuator, _ELEMENT[core], read).input(fed, 1, 0)
+    form = Tracer(actuator, ELEMENT[core], read).input(fed, 1, 0)
     if set(form) - {"position", "velocity"}:
         raise NotEvaluated(f"its law has the terms {', '.join(sorted(form))}")
     damping = -form.get("velocity", 0.0)
@@ -86,7 +88,7 @@ def linear_law(fed: Block, actuator: Block, core: str, read: InputFile) -> Law:
     return Law(-form.get("position", 0.0), damping)
 
 
-class _Tracer:
+class Tracer:
     """Follows signals upstream; a form maps signals to their factors, "1" being the constant."""
 
     def __init__(self, actuator: Block, element: float, read: InputFile) -> None:
@@ -94,6 +96,7 @@ class _Tracer:
         self.found: dict[tuple[int, str], dict[str, float]] = {}
 
     def form(self, block: Block, port: str, depth: int) -> dict[str, float]:
+        """The form of a signal."""
         key = id(block), port
         if key not in self.found:
             self.found[key] = self._form(block, port, depth)
@@ -112,6 +115,12 @@ class _Tracer:
             return {k: gain * v for k, v in self.input(block, 1, depth).items()}
         if kind == "Sum":
             return self.sum(block, depth)
+        if kind in ("Clock", "DigitalClock", "Ramp"):
+            return self.time(block)
+        if kind == "From":
+            return self.input(block, 1, depth)
+        if kind in ("Integrator", "Derivative", "PID Controller"):
+            return self.dynamic(block, depth)
         if kind == "Product":
             return self.product(block, depth)
         if kind == "BusSelector":
@@ -121,6 +130,8 @@ class _Tracer:
                 raise NotEvaluated(f"block {block.name!r} takes another component of the motion")
             found = self.input(block, 1, depth)
             return {name.removesuffix(" of six"): value for name, value in found.items()}
+        if kind == "RateTransition" and set(found := self.input(block, 1, depth)) <= {"1", "time"}:
+            return found
         if kind in _AT_REST and not any(self.input(block, 1, depth).values()):
             limits = [self.number(block, f"{side}Limit", "0") for side in ("Lower", "Upper")]
             if kind == "Saturate" and not limits[0] <= 0.0 <= limits[1]:
@@ -129,18 +140,21 @@ class _Tracer:
         raise NotEvaluated(f"block {block.name!r} ({kind}) is not known here")
 
     def input(self, block: Block, number: int, depth: int) -> dict[str, float]:
+        """The form of an input of a block."""
         driver = block.drivers.get(f"in:{number}")
         if driver is None:
             raise NotEvaluated(f"nothing drives input {number} of block {block.name!r}")
         return self.form(*driver, depth + 1)
 
     def number(self, block: Block, name: str, default: str) -> float:
+        """The value of a parameter of a block."""
         value = evaluate(self.read, block.parameters.get(name, default))
         if not isinstance(value, float | bool | np.generic):
             raise NotEvaluated(f"{name} of block {block.name!r} is not one number")
         return float(value)
 
     def sum(self, block: Block, depth: int) -> dict[str, float]:
+        """A sum with its signs."""
         signs = block.parameters.get("Inputs", "++").replace("|", "")
         if signs.isdecimal():
             signs = "+" * min(int(signs[:9]), len(block.drivers) + 1)
@@ -150,7 +164,46 @@ class _Tracer:
                 total[name] = total.get(name, 0.0) + (value if sign == "+" else -value)
         return total
 
+    def time(self, block: Block) -> dict[str, float]:
+        """The time, of a clock or a ramp from zero with slope 1."""
+        values = [
+            self.number(block, n, d) for n, d in (("slope", "1"), ("start", "0"), ("X0", "0"))
+        ]
+        if block.kind == "Ramp" and values != [1.0, 0.0, 0.0]:
+            raise NotEvaluated(f"block {block.name!r} is another ramp than time")
+        return {"time": 1.0}
+
+    def dynamic(self, block: Block, depth: int) -> dict[str, float]:
+        """An integral of the velocity is the position, its derivative the velocity; P I D of these.
+
+        The position counts from the start, as an integral does.
+        """
+        found = self.input(block, 1, depth)
+        gains = {"Integrator": (0.0, 1.0, 0.0), "Derivative": (0.0, 0.0, 1.0)}.get(block.kind)
+        if gains is None:
+            parts = block.parameters.get("Controller", "PID")
+            p, i, d = (
+                self.number(block, n, v) * (n in parts) for n, v in zip("PID", "110", strict=True)
+            )
+            gains = (p, i, d)
+            if block.parameters.get("LimitOutput", "off") == "on":
+                raise NotEvaluated(f"block {block.name!r} has limits")
+        total = {name: gains[0] * value for name, value in found.items()}
+        for gain, old, new in ((gains[1], "velocity", "position"), (gains[2], *_RATE)):
+            moved = {name for name, value in found.items() if value and gain}
+            if moved - {old}:
+                raise NotEvaluated(
+                    f"block {block.name!r} has a memory, of {', '.join(sorted(moved))}"
+                )
+            if moved:
+                total[new] = total.get(new, 0.0) + gain * found[old]
+        starts = [self.number(block, n, "0") for n in ("InitialCondition", *_STARTS)]
+        if gains[1] and any(starts):
+            raise NotEvaluated(f"block {block.name!r} does not start at zero")
+        return {name: value for name, value in total.items() if value}
+
     def product(self, block: Block, depth: int) -> dict[str, float]:
+        """A product or quotient with a constant."""
         signs = block.parameters.get("Inputs", "2")
         signs = {"2": "**"}.get(signs, signs)
         if signs not in ("**", "*/"):
@@ -167,6 +220,7 @@ class _Tracer:
         return {name: value * factor for name, value in first.items()}
 
     def bus(self, block: Block, port: str) -> dict[str, float]:
+        """A signal of the response, of six elements."""
         driver = block.drivers.get("in:1")
         if driver is None or driver[0] is not self.actuator:
             raise NotEvaluated(f"block {block.name!r} reads something else than the response")

@@ -70,13 +70,13 @@ class Model:
     ----------
     path : Path
     blocks : list of Block
-    functions : list of set of str
-        Names of the arguments of each MATLAB function, those inside blocks of libraries too.
+    functions : dict of str
+        Text of each MATLAB function by the name of its block, those inside blocks of libraries too.
     """
 
     path: Path
     blocks: list[Block]
-    functions: list[set[str]] = field(default_factory=list)
+    functions: dict[str, str] = field(default_factory=dict)
 
     def place(self, block: Block) -> str:
         """Model and block, as remarks have it."""
@@ -124,16 +124,21 @@ class _Reader:
             raise CaseError(f"{self.path}: there is no model in this file")
         self._system(system, "", "", "simulink")
         self._close()
-        return Model(self.path, list(self.blocks.values()), self._functions())
+        functions = self._functions()
+        for block in self.blocks.values():
+            if block.kind == "MATLAB Function":
+                block.parameters["script"] = functions.get(block.name, "")
+        return Model(self.path, list(self.blocks.values()), functions)
 
-    def _functions(self) -> list[set[str]]:
-        found = []
+    def _functions(self) -> dict[str, str]:
+        found = {}
         for name in self.archive.archive.namelist():
             if re.fullmatch(r"simulink/stateflow/chart_\d+\.xml", name):
-                for p in self.archive.xml(name).iter("P"):
-                    head = re.match(r"\s*function\b[^(]*\(([^)]*)\)", p.text or "")
-                    if p.get("Name") == "script" and head:
-                        found.append({word.strip() for word in head[1].split(",")})
+                chart = self.archive.xml(name)
+                title = next((p.text or "" for p in chart.findall("P[@Name='name']")), name)
+                for p in chart.iter("P"):
+                    if p.get("Name") == "script":
+                        found[" ".join(title.split())] = p.text or ""
         return found
 
     def _opened(self, system: ElementTree.Element, folder: str) -> tuple[ElementTree.Element, str]:
@@ -197,7 +202,8 @@ class _Reader:
         source = " ".join(values.get("SourceBlock", "").split())
         if child is not None and values.get("SFBlockType") == "MATLAB Function":
             names = ",".join(self._inputs(child, folder))
-            function = Block(name, own, "", "MATLAB Function", values | {"inputs": names})
+            parameters = values | mask | {"inputs": names}
+            function = Block(name, own, "", "MATLAB Function", parameters)
             self.blocks[path, sid] = function
             return
         if child is not None and not source and not _is_wecsim(mask):
@@ -317,6 +323,19 @@ class _Reader:
             driver = self._driver(target, sources, outputs)
             if driver is not None:
                 fed.drivers[target[2]] = driver
+        self._tags()
+
+    def _tags(self) -> None:
+        """Let blocks From be driven by what drives the Goto of their tag, of their system first."""
+        gotos = [(key[0], b) for key, b in self.blocks.items() if b.kind == "Goto"]
+        for (path, _), block in self.blocks.items():
+            if block.kind != "From":
+                continue
+            tag = block.parameters.get("GotoTag", "A")
+            found = [pair for pair in gotos if pair[1].parameters.get("GotoTag", "A") == tag]
+            found.sort(key=lambda pair: pair[0] != path)
+            if found and "in:1" in found[0][1].drivers:
+                block.drivers["in:1"] = found[0][1].drivers["in:1"]
 
     def _driver(
         self,

@@ -100,6 +100,8 @@ class Topology:
     flexible : list of (Block, int)
         Blocks of bodies with generalised modes, and their numbers.
     cables : list of Cable
+    blocks : dict of Block
+        Blocks of bodies by their number.
     """
 
     groups: dict[int, Group]
@@ -108,6 +110,7 @@ class Topology:
     names: dict[int, str]
     flexible: list[tuple[Block, int]] = field(default_factory=list)
     cables: list[Cable] = field(default_factory=list)
+    blocks: dict[int, Block] = field(default_factory=dict)
 
 
 def plain_name(text: str, fallback: str) -> str:
@@ -187,6 +190,7 @@ class _Finder:
         if re.fullmatch(r"rigid_body_?\d*", name):
             name = f"body{item.number}"
         self.topology.names[item.number] = unique(name, taken)
+        self.topology.blocks[item.number] = block
         self._group(next(iter(block.nets.values()))).bodies.append(item.number)
 
     def _rest(self, block: Block) -> None:
@@ -205,7 +209,7 @@ class _Finder:
         if kind == "Cable":
             self._cable(block)
             return
-        core = kind.partition(" PTO")[0]
+        core = re.sub(r" (PTO|Actuation)\b.*", "", kind)
         if core not in (*JOINTS, "Universal"):
             text = f"{block.library.replace('WECSim_Lib_', '')} {kind}"
             self._left_out(block, text, _part(block))
@@ -328,6 +332,8 @@ def _carried(motion: str, link: Link) -> str:
         if motion in ("fixed", "heave") and axis[2] > 1.0 - 1e-9:
             return "heave"
         return "planar" if axis[1] < 1e-9 else "rigid"
+    if link.kind == "Floating (3DOF)" and link.actuated:
+        return "rigid"  # its loads need the coordinates of the joint
     if link.kind in ("Rotational", "Floating (3DOF)"):
         return "planar" if abs(link.axis("y")[1]) > 1.0 - 1e-9 else "rigid"
     return "rigid"

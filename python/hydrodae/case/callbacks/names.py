@@ -63,7 +63,8 @@ def check_names(
         if name not in given:
             raise CaseError(
                 f"{owner} {name!r} is a Python function, which nobody gave; run the case as "
-                f'hydrodae.run(case, {argument}={{"{name}": function}})'
+                f'hydrodae.run(case, {argument}={{"{name}": function}}), or with '
+                "`hydrodae run CASE --functions FILE.py`"
             )
 
 

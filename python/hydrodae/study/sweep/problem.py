@@ -95,6 +95,12 @@ def read_problem(path: str | os.PathLike[str]) -> Problem:
     table = given.get("optimise")
     if not isinstance(table, dict):
         raise CaseError(f"{file}: --optimise needs the table [optimise]")
+    for name in table:
+        if above := {name, f"{name}s"} & (set(TABLES) - set(KEYS)):
+            key = above.pop()
+            raise CaseError(
+                f"{file}: [optimise] unknown key {name!r}: {key} stands above the table"
+            )
     known(file, "optimise", table, KEYS)
     goals = [key for key in ("maximise", "minimise") if key in table]
     if len(goals) != 1:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -37,6 +38,8 @@ def text(results: xr.Dataset) -> str:
                 lines.append(f"mean absorbed power{how}:")
                 lines += _rows(mine, factor * mine[name], half_percent(mine, name))
             break
+    else:
+        lines += _points(results) if len(results["status"].dims) == 1 else []
     if "annual_energy" in results:
         energy, hours = results["annual_energy"], float(results["hours"])
         rungs = energy[RUNG].to_numpy() if RUNG in energy.dims else [""]
@@ -67,7 +70,7 @@ def _worth(results: xr.Dataset, name: str) -> str:
 def _rows(results: xr.Dataset, power: xr.DataArray, half: xr.DataArray | None) -> list[str]:
     """A line a point or a row of the matrix; behind each number half of its interval [%]."""
     if power.ndim == 1:
-        return _points(results, power, half)
+        return _points(results, _powers(power, half))
     if power.ndim != 2:
         flat = power.to_numpy().ravel()
         return [f"  {np.nanmin(flat):.4g} to {np.nanmax(flat):.4g}"] if len(flat) else []
@@ -85,15 +88,24 @@ def _rows(results: xr.Dataset, power: xr.DataArray, half: xr.DataArray | None) -
     return lines
 
 
-def _points(results: xr.Dataset, power: xr.DataArray, half: xr.DataArray | None) -> list[str]:
-    """A line a point: what varies there, with its unit at the top, and the power."""
-    columns = [
-        [with_unit(results, str(key)), *map(_value, column.to_numpy())]
-        for key, column in results.variables.items()
-        if column.dims == power.dims and "key" in column.attrs
-    ]
+def _powers(power: xr.DataArray, half: xr.DataArray | None) -> list[str]:
+    """The column of the mean powers."""
     percent = np.full(power.shape, np.nan) if half is None else half.to_numpy()
-    columns.append(["mean power", *map(_cell, power.to_numpy(), percent)])
+    return ["mean power", *map(_cell, power.to_numpy(), percent)]
+
+
+def _points(results: xr.Dataset, *powers: list[str]) -> list[str]:
+    """A line a point: what varies there, with its unit at the top, the power, and the results."""
+    wanted = tomllib.loads(results.attrs.get("study", "")).get("result", {})
+    varied: list[list[str]] = []
+    measured: list[list[str]] = []
+    for name, column in results.variables.items():
+        if len(column.dims) == 1 and ("key" in column.attrs or name in wanted):
+            cells = [with_unit(results, str(name)), *map(_value, column.to_numpy())]
+            (measured if name in wanted else varied).append(cells)
+    columns = [*varied, *powers, *measured]
+    if not powers and not measured:
+        return []
     widths = [max(map(len, column)) for column in columns]
     lines = [
         "  " + "  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True))
