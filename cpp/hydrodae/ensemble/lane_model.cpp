@@ -374,36 +374,39 @@ template <> joint::Geometry<Moving> LaneModel::geometry<Moving>(const system::Jo
   return joint::geometry<Moving>(j.B, r[0], R[0], r[1], R[1]);
 }
 
-/// Computes G^T and (dG/dt) u of all rows, and L^-1 G^T.
-HYDRODAE_WIDE void LaneModel::fill_rows() {
-  const system::JointData* last = nullptr;
-  joint::Geometry<Moving> g;
-  for (Row& row : rows_) {
-    const system::JointData& j = *row.joint;
-    if (!last || last != &j)
-      g = geometry<Moving>(j);
-    last = &j;
-    const joint::Row<Moving> value = smooth_row<Moving>(row.kind, j, g);
-    row.bias = Lanes(0.0);
-    for (Row::Part& part : row.parts)
-      std::fill(part.w.begin(), part.w.end(), Lanes(0.0));
-    const int side_body[2] = {j.A.body, j.B.body};
-    for (int side = 0; side < 2; ++side) {
-      if (side_body[side] < 0)
-        continue;
-      const auto body = static_cast<std::size_t>(side_body[side]);
-      const BodyLanes& b = bodies_[body];
-      for (int c = 0; c < 3; ++c) {
-        row.bias += value.gradient[6 * side + c].b * b.v[c];
-        row.bias += value.gradient[6 * side + 3 + c].b * b.w[c];
-      }
-      const system::BodyData& data = s_.bodies[body];
-      for (Row::Part& part : row.parts)
-        if (part.cluster == cluster_of_[body])
-          for (int k = 0; k < data.n_active; ++k)
-            part.w[static_cast<std::size_t>(offset_[body] + k)] +=
-                value.gradient[6 * side + data.active[static_cast<std::size_t>(k)]].a;
+/// Computes G^T and (dG/dt) u of a row.
+void LaneModel::fill_row(Row& row, const joint::Geometry<Moving>& g) {
+  const system::JointData& j = *row.joint;
+  const joint::Row<Moving> value = smooth_row<Moving>(row.kind, j, g);
+  row.bias = Lanes(0.0);
+  for (Row::Part& part : row.parts)
+    std::fill(part.w.begin(), part.w.end(), Lanes(0.0));
+  const int side_body[2] = {j.A.body, j.B.body};
+  for (int side = 0; side < 2; ++side) {
+    if (side_body[side] < 0)
+      continue;
+    const auto body = static_cast<std::size_t>(side_body[side]);
+    const BodyLanes& b = bodies_[body];
+    for (int c = 0; c < 3; ++c) {
+      row.bias += value.gradient[6 * side + c].b * b.v[c];
+      row.bias += value.gradient[6 * side + 3 + c].b * b.w[c];
     }
+    const system::BodyData& data = s_.bodies[body];
+    for (Row::Part& part : row.parts)
+      if (part.cluster == cluster_of_[body])
+        for (int k = 0; k < data.n_active; ++k)
+          part.w[static_cast<std::size_t>(offset_[body] + k)] +=
+              value.gradient[6 * side + data.active[static_cast<std::size_t>(k)]].a;
+  }
+}
+
+/// Computes G^T and (dG/dt) u of all rows, which are in the order of joints, and L^-1 G^T.
+HYDRODAE_WIDE void LaneModel::fill_rows() {
+  for (std::size_t i = 0; i < rows_.size();) {
+    const system::JointData* joint = rows_[i].joint;
+    const joint::Geometry<Moving> g = geometry<Moving>(*joint);
+    for (; i < rows_.size() && rows_[i].joint == joint; ++i)
+      fill_row(rows_[i], g);
   }
   for (Cluster& cluster : clusters_) {
     std::size_t i = 0;

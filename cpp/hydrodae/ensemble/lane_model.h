@@ -117,6 +117,7 @@ private:
   Turn turn_of(const system::HydroBody& hb) const;
   void fill_masses();
   void add_water_mass(std::size_t i, std::size_t j);
+  void fill_row(Row& row, const joint::Geometry<Moving>& g);
   void fill_rows();
   void factorise_rows();
   void solve();
