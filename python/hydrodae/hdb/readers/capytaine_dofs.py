@@ -73,7 +73,7 @@ def coordinates_of(
     influenced, radiating = (list(ds[axis].values) for axis in ("influenced_dof", "radiating_dof"))
     both = [str(d) for d in influenced if d in radiating]
     rigid = [d for d in both if is_rigid(d)]
-    stiff = with_stiffness(ds)
+    stiff = with_stiffness(ds, rigid)
     own = [d for d in both if not is_rigid(d) and d in stiff]
     without = [d for d in both if d not in rigid + own]
     half = [str(d) for d in dict.fromkeys(influenced + radiating) if d not in both]
@@ -91,8 +91,8 @@ def coordinates_of(
         findings.append(Finding("info", "coordinates", f"modes of their bodies: {own}"))
     if turned := [d for d in own if has_inertia(ds, d)]:
         said = (
-            f"modes of which the file has the inertia: {turned}; Capytaine has it of rigid motions, "
-            f"whose stiffness holds the weight: name these, as in --motion {turned[0]}=pitch"
+            f"modes with an inertia: {turned}; Capytaine has it of rigid motions, whose stiffness "
+            f"holds the weight: name these, as in --motion {turned[0]}=pitch"
         )
         findings.append(Finding("warning", "coordinates", said))
     prefixes = list(dict.fromkeys(d.rpartition("__")[0] for d in rigid + own))

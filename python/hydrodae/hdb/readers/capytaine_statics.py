@@ -66,12 +66,18 @@ def mode_name(word: str) -> str:
     return re.sub(r"[^A-Za-z0-9_-]", "_", word)
 
 
-def with_stiffness(ds: xr.Dataset) -> list[str]:
-    """Return the degrees of freedom, not rigid, whose hydrostatic stiffness the file has."""
+def with_stiffness(ds: xr.Dataset, rigid: list[str]) -> list[str]:
+    """Return the degrees of freedom, not rigid, of bodies of the file, with their stiffness.
+
+    A file's bodies are those that move as rigid ones, those it lists, or without a list all.
+    """
     name = "hydrostatic_stiffness"
     if name not in ds or set(ds[name].dims) != {"influenced_dof", "radiating_dof"}:
         return []
     own = [d for d in map(label_text, ds[name]["influenced_dof"].values) if not is_rigid(d)]
+    if "body" in ds.dims:
+        bodies = {d.rpartition("__")[0] for d in rigid} | set(map(label_text, ds["body"].values))
+        own = [d for d in own if d.rpartition("__")[0] in bodies]
     loads = {d: ds[name].sel(influenced_dof=d, radiating_dof=d).values for d in own}
     return [d for d, value in loads.items() if np.isfinite(value)]
 
