@@ -20,7 +20,7 @@ def sphere(repository: Path) -> HydroDatabase:
 
 
 def noisy(db: HydroDatabase, level: float) -> HydroDatabase:
-    """Gaussian noise of a share of the largest damping on A and of a third of it on A."""
+    """Gaussian noise of a share of the largest value on B, and of a third of that share on A."""
     random = np.random.default_rng(1)
     tables = {}
     for name, share in (("added_mass", 0.3 * level), ("radiation_damping", level)):

@@ -26,7 +26,7 @@ def flap(dof: str, *, inertia: float, point: bool = True) -> xr.Dataset:
     stiffness of a motion that Capytaine knows as rigid holds the weight of the displaced water.
     """
     both = dict(influenced_dof=["a__Pitch"], radiating_dof=["a__Pitch"])
-    ds = dataset(3, OMEGA, bodies=("a",)).sel(both)
+    ds: xr.Dataset = dataset(3, OMEGA, bodies=("a",)).sel(both)
     ds = ds.assign_coords(influenced_dof=[dof], radiating_dof=[dof])
     buoyancy = RHO * G * (6.0 / 12.0 + VOLUME * 2.5)
     weight = RHO * G * VOLUME * 3.0 if np.isfinite(inertia) else 0.0

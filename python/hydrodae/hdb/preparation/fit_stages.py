@@ -210,9 +210,11 @@ def _as_near(fit: ExponentialMemory) -> ExponentialMemory:
 def goes_on(fit: ExponentialMemory, database: HydroDatabase, inertia: float = INERTIA) -> bool:
     """Return whether a fit goes to the right limit beyond the frequencies that it matches.
 
-    It is passive, its A_inf is that of the tables within their uncertainty, at least a share
-    `inertia` of the largest A, and |H| nowhere is far beyond what it is at the frequencies of the
-    tables that break no law (if all do, at all).
+    It is passive. Its A_inf is that of the tables within their uncertainty, at least a share
+    `inertia` of the largest A.
+
+    |H| nowhere is far beyond what it is at the frequencies of the
+    tables that break no law; if all do, at all of them.
     """
     i = database.index(fit.inputs)
     moving = [fit.outputs.index(label) for label in fit.inputs]
