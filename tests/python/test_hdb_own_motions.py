@@ -159,3 +159,9 @@ def test_drift_beside_a_source_of_another_format_is_named(tmp_path: Path) -> Non
     assert "not read: buoy.8, other.12d;" in said
     assert "--second-order" in said
     assert "run.8" not in said  # of the run beside it
+
+
+def test_a_pitch_alone_cannot_move_and_is_told_why(tmp_path: Path) -> None:
+    path = save(flap("a__Hinge", inertia=np.nan), tmp_path / "flap.nc", 3)
+    with pytest.raises(DatabaseError, match=r"compute a\.surge too, or of a hinge keep a mode"):
+        hdb.import_database(path, motions={"a__Hinge": "pitch"}, reference_points={"a": (0, 0, -2)})
