@@ -106,13 +106,13 @@ def variants(active: str) -> str:
 def test_the_active_choice_of_a_variant_is_followed(
     tmp_path: Path, active: str, gain: float, damping: float | str | None
 ) -> None:
-    """A filter of a signal that is zero stays zero; of another it is no law of this moment."""
+    """A filter of a signal that is zero stays zero; of another its controller is to be written."""
     pto = f"k = {gain};"
     write_one_body(tmp_path / "source", WAVES, pto, variants(active), ACTUATED)
     converted = convert(tmp_path / "source", tmp_path / "case", accept=None)
     forces = tables(tmp_path / "case").get("force", [])
     assert [force["damping"] for force in forces] == (
-        [damping] if gain and active == "gain" else []
+        [damping if active == "gain" else 0.0] if gain else []
     )
     assert ("DiscreteTransferFcn" in left_out(converted)) == (damping == "Filter")
     assert ("is zero with the gains" in str(converted.remarks.of("assumed"))) == (gain == 0.0)

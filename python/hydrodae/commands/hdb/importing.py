@@ -70,6 +70,14 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "each (froude-krylov=other,diffraction=other); default: what the long waves say",
     )
     add.add_argument(
+        "--motion",
+        metavar="DOF=MOTION",
+        action="append",
+        default=[],
+        help="an own degree of freedom of Capytaine is this rigid motion, surge to yaw, e.g. "
+        "Hinge=pitch. Others become modes. May be repeated",
+    )
+    add.add_argument(
         "--keep",
         metavar="SPEC",
         help="coordinates to keep, e.g. base.planar,flap1.pitch; the checks see these only",
@@ -173,6 +181,13 @@ def _volume(text: str) -> tuple[str, float]:
     return name, volume
 
 
+def _motion(text: str) -> tuple[str, str]:
+    dof, _, motion = (part.strip() for part in text.rpartition("="))
+    if not dof or not motion:
+        raise CaseError(f"--motion {text!r}: expected DOF=MOTION, as in Hinge=pitch")
+    return dof, motion
+
+
 def _by_body(option: str, texts: list[str]) -> dict[str, Sequence[str | Path]]:
     found: dict[str, Sequence[str | Path]] = {}
     for text in texts:
@@ -195,6 +210,7 @@ def run(args: argparse.Namespace) -> int:
             volumes=dict(_volume(text) for text in args.volume),
             **water_of(args),
             time_convention=args.time_convention,
+            motions=dict(_motion(text) for text in args.motion),
             keep=args.keep,
             cut=args.cut,
             columns=args.column,

@@ -176,7 +176,8 @@ def transport(
             if other not in place:
                 raise DatabaseError(
                     f"cannot move the reference point of {body!r}: {owner} has {label} but "
-                    f"not {other}, which the move couples with it"
+                    f"not {other}, which the move couples with it: compute {other} too, or of a "
+                    f"hinge keep a mode of a fixed body (an own degree of freedom of Capytaine)"
                 ).about("missing", other)
             x[place[other], column] = value
     return x

@@ -189,6 +189,7 @@ def _lighter(modes: Modes, search: Search, tries: int) -> Modes:
     light = np.sqrt(np.cumsum(cost[rank] ** 2)) < 0.3 * error(modes, problem)
     if search.many:
         light = np.arange(rank.size) < max(1, int(BATCH * rank.size))
+    light[-1:] = False  # one stays: noise may leave none that matters
     if np.count_nonzero(light) > 1 or search.many:
         return _refitted(modes.without(rank[light]), search, 8, 2e-3)
     trials = [refine(modes.without(mode), problem, 3, 1e-3) for mode in rank[:tries]]

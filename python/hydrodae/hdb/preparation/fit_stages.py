@@ -24,6 +24,9 @@ USUAL = 0.01
 #: Then A_inf of the fit must be that of the tables, to this share of the largest A, and |H| nowhere
 #: beyond so many times its largest in the tables.
 INERTIA, RINGS = 0.05, 1.5
+#: Weighted error over the noise of the tables up to which a fit is kept, and how far the added mass
+#: of noisy tables may be off with it.
+NOISE_TIMES, NOISY_INERTIA = 1.5, 0.1
 
 
 @dataclass
@@ -61,6 +64,7 @@ class Fit:
     time_limit: float | None
     accept: Sequence[str]
     progress: Callable[[str], None] | None
+    asked_band: tuple[float, float] | None = None
     judged: tuple[float, float] = (0.0, 0.0)
     tables: HydroDatabase = field(init=False)
     bad: NDArray[np.bool_] = field(init=False)
@@ -180,8 +184,12 @@ def _near_enough(state: Fit) -> bool:
         return False
     if report["as_near_as_noise"]:
         return True
-    beyond = report["weighted_error_outside"] <= OUTSIDE or goes_on(state.made, state.tables)
-    return bool(report["weighted_error_band"] <= USUAL and beyond)
+    noise = report["noise"]
+    allowed = max(INERTIA, min(noise, NOISY_INERTIA))
+    beyond = report["weighted_error_outside"] <= OUTSIDE or goes_on(
+        state.made, state.tables, allowed
+    )
+    return bool(report["weighted_error_band"] <= max(USUAL, NOISE_TIMES * noise) and beyond)
 
 
 def _as_near(fit: ExponentialMemory) -> ExponentialMemory:
@@ -194,22 +202,28 @@ def _as_near(fit: ExponentialMemory) -> ExponentialMemory:
         f"the tables carry noise of {report['noise']:.1e} of H in the band (weighted); {cause} "
         f"the usual target {report['target']:g}, this one {report['weighted_error_band']:.1e}"
     )
+    if report["weighted_error_band"] > USUAL:
+        text += f": loads of radiation are known to {report['h_error_band']:.0%} there"
     return replace(fit, report={**report, "noisy": text, "target_met": True})
 
 
-def goes_on(fit: ExponentialMemory, database: HydroDatabase) -> bool:
+def goes_on(fit: ExponentialMemory, database: HydroDatabase, inertia: float = INERTIA) -> bool:
     """Return whether a fit goes to the right limit beyond the frequencies that it matches.
 
-    It is passive, its A_inf is that of the tables within their uncertainty, and |H| nowhere is far
-    beyond what it is at the frequencies of the tables that break no law.
+    It is passive. Its A_inf is that of the tables within their uncertainty, at least a share
+    `inertia` of the largest A.
+
+    |H| nowhere is far beyond what it is at the frequencies of the
+    tables that break no law; if all do, at all of them.
     """
     i = database.index(fit.inputs)
     moving = [fit.outputs.index(label) for label in fit.inputs]
     own = np.diag(fit.added_mass_inf[moving])
     off = own - np.diag(database.added_mass_inf)[i]
     size = np.abs(database.added_mass[:, i, i]).max(axis=0)
-    allowed = np.maximum(INERTIA * size, 3.0 * np.diag(database.added_mass_inf_std)[i])
+    allowed = np.maximum(inertia * size, 3.0 * np.diag(database.added_mass_inf_std)[i])
     good = ~suspect_rows(database)
+    good |= not good.any()
     w = database.omega[good, None]
     stored = database.radiation_damping[:, i, i][good] + 1j * w * (
         database.added_mass[:, i, i][good] - own
@@ -224,11 +238,12 @@ def _refusal(refused: dict[str, str], cured_by: str) -> str:
     """Return why a fit is refused, and what can be done."""
     ways = []
     if "target" in refused:
-        ways.append("a larger --target, a narrower --band or --states N, the best of so many")
+        ways.append("--target E, --band LO,HI or --states N")
     if "passive" in refused:
         ways.append("more states or another --method")
     names = " ".join(f"--accept {check}" for check in refused)
     first = f" {cured_by}." if cured_by else ""
     return (
-        f"{', and '.join(refused.values())}.{first} Not kept: give {', or '.join(ways)}, or {names}"
+        f"{', and '.join(refused.values())}.{first} Not kept: give {', or '.join(ways)}, or keep "
+        f"this one by {names}"
     )

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
-from hydrodae.errors import CaseError
+from hydrodae.errors import CaseError, DatabaseError
+from hydrodae.hdb.checks.band import felt_band
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.coordinates import body_name, expand
 from hydrodae.hdb.database.radiation_kernel import LIMIT
@@ -34,8 +36,9 @@ def fit(
     causality or energy (irregular frequencies) are left out, and then those above the band. The
     report states how many (`left_out`); A_inf must be that of the tables, and H not larger.
     Single frequencies off the curve through their neighbours are left out before, and reported.
-    Without a target, a fit that misses the usual one is kept within 1 % of H in the band; its
-    report states the error and the noise of the tables (`noisy`).
+    Without a target, a fit that misses the usual one is kept within 1 % of H in the band, or
+    within 1.5 times the noise of the tables; its report states the error and the noise (`noisy`).
+    Where the band of the damping gives none, that which the device feels is tried.
 
     Parameters
     ----------
@@ -97,6 +100,7 @@ def fit(
         None if loads is None else _labels(loads, database),
         name=name,
         band=band,
+        asked_band=band,
         states=states,
         target=target,
         uniform=uniform,
@@ -104,7 +108,35 @@ def fit(
         accept=accept,
         progress=progress,
     )
-    return pipeline.run(pipeline.FIT, state, progress).database
+    try:
+        return pipeline.run(pipeline.FIT, state, progress).database
+    except DatabaseError as error:
+        again = _in_the_felt_band(state)
+        if again is None or error.reason != "target":
+            raise
+        if progress is not None:
+            progress(again.left_out[0])
+        try:
+            return pipeline.run(pipeline.FIT, again, progress).database
+        except DatabaseError:
+            raise error from None
+
+
+def _in_the_felt_band(state: Fit) -> Fit | None:
+    """Return the same fit for the band that the device feels; None where a user says how it is.
+
+    The band of the damping may end below it, where the fit then rings.
+    """
+    said = (state.asked_band, state.target, state.uniform, state.states)
+    if any(value is not None for value in said) or not state.database.heading.size:
+        return None
+    band = felt_band(state.database)
+    low, high = state.judged
+    text = (
+        f"no good fit in {low:.3g}..{high:.3g} rad/s, where the damping is; this one is for "
+        f"{band[0]:.3g}..{band[1]:.3g} rad/s, what the device feels"
+    )
+    return replace(state, band=band, asked_band=band, left_out=[text])
 
 
 def kernel(

@@ -64,6 +64,7 @@ class Import:
     depth: float | None = None
     gravity: float | None = None
     time_convention: str | None = None
+    motions: dict[str, str] = field(default_factory=dict)
     keep: str | None = None
     cut: float | None = None
     symmetric: Sequence[str] | None = None
@@ -85,12 +86,18 @@ def read_tables(state: Import) -> None:
     if kind(source) != "hydro":
         convention = state.time_convention
         state.data = read_source(
-            source, rho=rho, depth=depth, gravity=gravity, time_convention=convention
+            source,
+            rho=rho,
+            depth=depth,
+            gravity=gravity,
+            time_convention=convention,
+            motions=state.motions,
         )
         return
     for asked, text in (
         (state.time_convention, "finished; its forces are e^(+iwt) (time_convention)"),
         (state.cut, "frequencies are cut where a source is imported (cut)"),
+        (state.motions or None, "its motions have their names since its import (motions)"),
     ):
         if asked is not None:
             raise DatabaseError(text).about("option", file=source)

@@ -29,6 +29,7 @@ def import_database(
     depth: float | None = None,
     gravity: float | None = None,
     time_convention: str | None = None,
+    motions: Mapping[str, str] | None = None,
     keep: str | None = None,
     cut: float | None = None,
     symmetric: Sequence[str] | None = None,
@@ -66,6 +67,9 @@ def import_database(
         Of the water [kg/m3, m, m/s2], where the source does not say (WAMIT's tables).
     time_convention : str, optional
         Of the forces, as in `read`.
+    motions : dict of str, optional
+        Own degrees of freedom of Capytaine that are rigid motions, surge to yaw, by their labels
+        in the file, as in {"Hinge": "pitch"}.
     keep : str, optional
         Coordinates to keep, as in `hydrodae.hdb.expand`; the checks see these only.
     cut : float, optional
@@ -107,6 +111,7 @@ def import_database(
         depth=depth,
         gravity=gravity,
         time_convention=time_convention,
+        motions=dict(motions or {}),
         keep=keep,
         cut=cut,
         symmetric=symmetric,

@@ -7,6 +7,7 @@ and radiating_dof changed between versions.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Literal
 
@@ -15,12 +16,11 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.database.coordinates import unique_names
 from hydrodae.hdb.database.extra import kept_tables, label_text, shallow_findings
 from hydrodae.hdb.database.files import damaged
 from hydrodae.hdb.database.findings import Finding
-from hydrodae.hdb.labels import DOFS
-from hydrodae.hdb.readers.capytaine_statics import attach_bodies, mode_name, with_stiffness
+from hydrodae.hdb.readers.capytaine_dofs import coordinates_of, with_motions
+from hydrodae.hdb.readers.capytaine_statics import attach_bodies
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.relations.dispersion import frequency
 from hydrodae.support.arrays import Array, Complex
@@ -39,13 +39,15 @@ FORCES = {
 
 
 @names_file
-def read_capytaine(path: Path) -> SourceData:
+def read_capytaine(path: Path, motions: Mapping[str, str] | None = None) -> SourceData:
     """Read a netCDF file of Capytaine (NETCDF3 or NETCDF4).
 
     Parameters
     ----------
     path : Path
         The file.
+    motions : dict of str, optional
+        Own degrees of freedom that are rigid motions of their bodies, as {"Hinge": "pitch"}.
 
     Returns
     -------
@@ -58,10 +60,10 @@ def read_capytaine(path: Path) -> SourceData:
         Not such a file, something missing, or dimensions that cannot be one database.
     """
     with guarded(path, damaged, UNREADABLE):
-        return _read(path, load_dataset(path))
+        return _read(path, load_dataset(path), motions or {})
 
 
-def _read(path: Path, ds: xr.Dataset) -> SourceData:
+def _read(path: Path, ds: xr.Dataset, motions: Mapping[str, str]) -> SourceData:
     ds = _one_case(ds)
     for name in ("added_mass", "radiation_damping"):
         if name not in ds:
@@ -73,7 +75,8 @@ def _read(path: Path, ds: xr.Dataset) -> SourceData:
             "frequencies"
         )
     findings: list[Finding] = []
-    raw, coordinates = _coordinates(path, ds, findings)
+    with_motions(ds, motions, findings)
+    raw, coordinates = coordinates_of(path, ds, findings)
     a = _matrix(ds, "added_mass", raw)
     b = _matrix(ds, "radiation_damping", raw)
     usual = np.isfinite(omega) & (omega > 0.0)
@@ -195,41 +198,6 @@ def _to_omega(ds: xr.Dataset, axis: str, given: Array) -> Array:
         return 2.0 * np.pi * given
     k = given if axis == "wavenumber" else 2.0 * np.pi / given
     return frequency(k, _depth(ds), _number(ds, "g"))
-
-
-def _coordinates(
-    path: Path, ds: xr.Dataset, findings: list[Finding]
-) -> tuple[list[str], tuple[str, ...]]:
-    """Names of the degrees of freedom in the file, and their labels here, in the same order."""
-    influenced = [label_text(d) for d in np.atleast_1d(ds["influenced_dof"].values)]
-    radiating = [label_text(d) for d in np.atleast_1d(ds["radiating_dof"].values)]
-    ds["influenced_dof"], ds["radiating_dof"] = influenced, radiating
-    both = [d for d in influenced if d in radiating]
-    rigid = [d for d in both if d.rpartition("__")[2].lower() in DOFS]
-    own = [d for d in both if d not in rigid and d in with_stiffness(ds, rigid)]
-    lost = [d for d in dict.fromkeys(influenced + radiating) if d not in rigid + own]
-    if not rigid:
-        raise DatabaseError(f"none of {both} is one of {', '.join(DOFS)}").about("label")
-    if lost:
-        said = f"left out (not rigid, or motion or force only): {lost}"
-        findings.append(Finding("warning", "coordinates", said))
-    if own:
-        findings.append(Finding("info", "coordinates", f"modes of their bodies: {own}"))
-    prefixes = list(dict.fromkeys(d.rpartition("__")[0] for d in rigid))
-    names = unique_names([p or _single_body(path, ds) for p in prefixes])
-    labels = []
-    for dof in rigid + own:
-        prefix, _, word = dof.rpartition("__")
-        motion = word.lower() if dof in rigid else mode_name(word)
-        labels.append(f"{names[prefixes.index(prefix)]}.{motion}")
-    return rigid + own, tuple(labels)
-
-
-def _single_body(path: Path, ds: xr.Dataset) -> str:
-    for key in ("body", "body_name"):
-        if key in ds.coords and ds[key].size == 1:
-            return label_text(ds[key].values.item())
-    return path.stem
 
 
 def _matrix(ds: xr.Dataset, name: str, dofs: list[str]) -> Array:

@@ -14,6 +14,7 @@ from hydrodae.hdb.database.coordinates import nearest
 from hydrodae.hdb.readers.bemio import is_bemio_file
 from hydrodae.hdb.readers.foreign import foreign, foreign_in
 from hydrodae.hdb.readers.formats import expected_files, formats
+from hydrodae.hdb.readers.hydrodyn import tables_of
 from hydrodae.hdb.readers.text import files_named, only
 from hydrodae.support.damaged import reading
 
@@ -46,6 +47,7 @@ def resolve(source: str | Path) -> tuple[Path, str]:
         return _folder(path)
     if not path.is_file():
         raise DatabaseError(f"no such file or folder{_similar(path)}").about("missing", file=path)
+    path = tables_of(path) or path
     return path, _file(path)
 
 

@@ -58,9 +58,10 @@ def read_nemoh(path: Path) -> SourceData:
     names = unique_names([body.mesh for body in cal.bodies])
     radiation = nh.find(root, "RadiationCoefficients.tec")
     if radiation is None:
-        raise DatabaseError("no RadiationCoefficients.tec in it or in its results folder").about(
-            "missing", "RadiationCoefficients.tec", file=root
-        )
+        raise DatabaseError(
+            "no RadiationCoefficients.tec in it or in its results folder: an input without "
+            "results; run preProc, solver and postProc of Nemoh on it"
+        ).about("missing", "RadiationCoefficients.tec", file=root)
     data = _read_tables(root, cal, names, [cal_file, radiation])
     _compare_grid(data, cal)
     meshes = [body.mesh for body in cal.bodies]

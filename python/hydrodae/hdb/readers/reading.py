@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.readers.bemio import read_bemio
+from hydrodae.hdb.readers.capytaine import read_capytaine
 from hydrodae.hdb.readers.finishing import finish
 from hydrodae.hdb.readers.formats import formats
 from hydrodae.hdb.readers.headings import FORCES, settle_headings
@@ -30,6 +32,7 @@ def read_source(
     depth: float | None = None,
     gravity: float | None = None,
     time_convention: str | None = None,
+    motions: Mapping[str, str] | None = None,
 ) -> SourceData:
     """Read files of Nemoh, Capytaine, BEMIO, WAMIT, HAMS, AQWA or OrcaWave, as they are.
 
@@ -42,6 +45,8 @@ def read_source(
     time_convention : str, optional
         "format", the convention that is the format's own, or "other", of all forces or of each, as
         in "froude-krylov=other,diffraction=other"; default: what the long waves say.
+    motions : dict of str, optional
+        Own degrees of freedom of Capytaine that are rigid motions, as in {"Hinge": "pitch"}.
 
     Raises
     ------
@@ -53,7 +58,7 @@ def read_source(
     water = Water(rho, depth, gravity)
     try:
         with np.errstate(over="ignore", invalid="ignore"):  # rows that hold inf are reported below
-            data = _read(path, what, water)
+            data = _read(path, what, water, motions or {})
         _check_tables(path, data)
         settle_points(data)
         correct_time_sense(data, time_convention)
@@ -76,8 +81,13 @@ def _naming(path: Path, error: DatabaseError) -> DatabaseError:
     return error if named else error.in_file(path)
 
 
-def _read(path: Path, what: str, water: Water) -> SourceData:
+def _read(path: Path, what: str, water: Water, motions: Mapping[str, str]) -> SourceData:
     """Read a kind of source."""
+    if motions and what != "capytaine":
+        raise DatabaseError(
+            "--motion names own degrees of freedom of Capytaine's .nc; the motions of other "
+            "formats are surge to yaw already"
+        ).about("option", "motion", file=path)
     if what in formats():
         format = formats()[what]
         return format.read(path, water) if format.takes_water else format.read(path)
@@ -86,7 +96,7 @@ def _read(path: Path, what: str, water: Water) -> SourceData:
     elif what == "bemio":
         return read_bemio(path)
     elif what == "capytaine":
-        from hydrodae.hdb.readers.capytaine import read_capytaine as reader
+        return read_capytaine(path, motions)
     else:
         raise DatabaseError("a finished hydro.h5, not a source").about("unsupported", file=path)
     return reader(path)

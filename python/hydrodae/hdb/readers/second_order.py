@@ -41,6 +41,9 @@ EXPECTED = (
     ".7 to .12 or .out of WAMIT, .h5 of BEMIO, OUT_QTFM_N*.dat of Nemoh, "
     ".rao of HydroStar with #QTFTYPE, .QTF of AQWA, .yml of OrcaFlex"
 )
+#: Readers of tables that stand in files of their own, and suffixes of files of first order.
+SEPARATE = (wamit_drift, nemoh_drift, aqwa_drift, hydrostar_drift)
+FIRST_ORDER = (".1", ".out", ".ah1", ".lis", ".nc", ".h5", ".cal")
 #: The better ones first: pressures need the finest mesh, and the quadratic part is not all.
 METHODS = (
     "control surface", "momentum", "direct", "indirect", "not stated", "pressure", "quadratic part",
@@ -54,11 +57,13 @@ def attach(path: Path, what: str, data: SourceData) -> None:
     A table that is wrong is an error of the report: the tables of first order may still be right.
     """
     setting, entries = setting_of(data), list[Entries]()
+    taken = list[Path]()
     try:
         if what == "capytaine":
             entries = capytaine_drift.read(path, data.extra, setting, data.findings)
         elif what in READERS:
-            for file in READERS[what].find(path):
+            taken = READERS[what].find(path)
+            for file in taken:
                 entries += _read(READERS[what], file, setting, data.findings)
         found = _tables(entries, setting, data.findings)
     except DatabaseError as error:
@@ -66,6 +71,25 @@ def attach(path: Path, what: str, data: SourceData) -> None:
         data.findings.append(Finding("error", CHECK, text))
         return
     data.second_order = _kept(found, data.coordinates, data.findings)
+    if left := unread_beside(path, taken):
+        names = ", ".join(p.name for p in left[:6]) + (", ..." if len(left) > 6 else "")
+        text = f"beside the source, not read: {names}; --second-order {left[0]} adds it"
+        data.findings.append(Finding("info", CHECK, text))
+
+
+def unread_beside(path: Path, taken: Sequence[Path]) -> list[Path]:
+    """Return the tables of second order in the folder of a source that it does not take itself.
+
+    Those of another run, beside whose tables of first order they stand, are left out.
+    """
+    folder = path if path.is_dir() else path.parent
+    files = [p for p in sorted(folder.iterdir()) if p.is_file()]
+    runs = {p.stem.lower() for p in files if p.suffix.lower() in FIRST_ORDER}
+    runs -= {path.stem.lower()}
+    alone = [p for p in files if p.stem.lower() not in runs and p.suffix.lower() not in FIRST_ORDER]
+    found = [p for p in alone if any(reader.find(p) == [p] for reader in SEPARATE)]
+    found += [p for p in nemoh_drift.find(folder) if p not in found]
+    return [p for p in found if p not in taken and p != path]
 
 
 def named(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -93,6 +93,9 @@ class SourceData:
         Kochin functions and drift forces.
     mode_stiffness : dict
         Hydrostatics of bodies with modes (6 + m, 6 + m) [N/m, N, N m]; see `Body`.
+    statics_about : dict of functions
+        By body, hydrostatics that the source holds about its point [m], which it does not state;
+        text where they are not complete.
     scales : Scales
         How the source writes tables of second order.
     second_order : dict of SecondOrderTable
@@ -121,6 +124,7 @@ class SourceData:
     meshes: dict[str, Array] = field(default_factory=dict)
     extra: dict[str, SourceTable] = field(default_factory=dict)
     mode_stiffness: dict[str, Array] = field(default_factory=dict)
+    statics_about: dict[str, Callable[[Array], Hydrostatics | str]] = field(default_factory=dict)
     scales: Scales = field(default_factory=Scales)
     second_order: dict[str, SecondOrderTable] = field(default_factory=dict)
 
@@ -144,7 +148,16 @@ class SourceData:
         self.findings.append(why)
 
     def state_point(self, body: str, point: Array) -> None:
-        """Take the reference point that the user states, in place of an assumed one."""
+        """Take the reference point that the user states, in place of an assumed one.
+
+        Hydrostatics that waited for it follow.
+        """
+        if body in self.statics_about:
+            found = self.statics_about[body](point)
+            if isinstance(found, Hydrostatics):
+                self.hydrostatics[body] = (found, point)
+            else:
+                self.findings.append(without_hydrostatics(f"{body}: no {found}", [body]))
         self.reference_points[body] = point
         why = self.assumed_points.get(body)
         self.findings = [finding for finding in self.findings if finding is not why]

@@ -83,7 +83,9 @@ def read_blocks(path: Path) -> tuple[str, list[Block]]:
                 header.append(title)
     close()
     if not blocks:
-        raise DatabaseError("no numbers in it").about("missing", "numbers")
+        raise DatabaseError("no numbers in it: run postProc of Nemoh again").about(
+            "missing", "numbers"
+        )
     return "\n".join(header), blocks
 
 
