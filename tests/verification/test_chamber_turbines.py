@@ -171,7 +171,7 @@ def test_a_measured_speed_of_rotation_is_a_table_over_time() -> None:
 
     def pressure(t: float, mass: float) -> float:
         density = mass / (chambers.VOLUME - chambers.AREA * motion(t)[0])
-        return chambers.OUTSIDE * ((density / chambers.DENSITY) ** chambers.EXPONENT - 1.0)
+        return float(chambers.OUTSIDE * ((density / chambers.DENSITY) ** chambers.EXPONENT - 1.0))
 
     mass, found = chambers.DENSITY * chambers.VOLUME, [0.0]
     for t, speed in zip(times[:50], speeds[:50], strict=True):
