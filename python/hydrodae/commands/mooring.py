@@ -41,9 +41,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     importing.add_argument(
         "--type",
-        choices=("catenary", "line"),
-        default="catenary",
-        help="lines at rest at each instant, or dynamic lines (default %(default)s)",
+        choices=("line", "catenary"),
+        default="line",
+        help="dynamic lines, or lines at rest at each instant (default %(default)s)",
     )
     importing.add_argument(
         "--at",

@@ -28,7 +28,7 @@ def read_moordyn(
     body: str = "platform",
     at: Sequence[float] | Mapping[str, Sequence[float]] | None = None,
     bodies: Mapping[str, str] | None = None,
-    type: Literal["catenary", "line"] = "catenary",
+    type: Literal["line", "catenary"] = "line",
 ) -> Imported:
     """Read a MoorDyn input file, version 1 or 2, as tables of a case.
 
@@ -50,9 +50,9 @@ def read_moordyn(
     bodies : mapping from str, optional
         Bodies of the case for those of the file, by their numbers there: ``{"1": "float"}``; for
         turbines of a farm ``{"turbine1": "float"}``.
-    type : {"catenary", "line"}
-        Lines at rest at each instant, or dynamic ones with the segments, damping, drag, added mass,
-        bending and seabed of the file.
+    type : {"line", "catenary"}
+        Dynamic lines with the segments, damping, drag, added mass, bending and seabed of the file,
+        or lines at rest at each instant.
 
     Raises
     ------
