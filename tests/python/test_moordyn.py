@@ -31,7 +31,22 @@ def test_lines_in_series_become_one_force(
 ) -> None:
     deck = written(tmp_path, RM3)
     out = tmp_path / "moorings.toml"
-    assert main(["mooring", "import", str(deck), "--type", "catenary", "-o", str(out), "--body", "1=spar"]) == 0
+    assert (
+        main(
+            [
+                "mooring",
+                "import",
+                str(deck),
+                "--type",
+                "catenary",
+                "-o",
+                str(out),
+                "--body",
+                "1=spar",
+            ]
+        )
+        == 0
+    )
     found = tables(out.read_text())
     assert list(found) == ["force"]
     assert [force["name"] for force in found["force"]] == ["line1_2", "line3_4", "line5_6"]

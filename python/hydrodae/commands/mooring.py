@@ -37,7 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         help="body of the case that coupled points belong to (default platform), or that stands "
-        "for body N of the file; repeatable",
+        "for body N of the file, or for rodN or turbineN; repeatable",
     )
     importing.add_argument(
         "--type",

@@ -32,9 +32,10 @@ def read_moordyn(
 ) -> Imported:
     """Read a MoorDyn input file, version 1 or 2, as tables of a case.
 
-    Lines in series from an anchor to a body become one force of type `catenary` or `line`, with the
-    masses and floats between them as its loads or attachments. A free point where more than two
-    lines meet, or one ends, becomes a point mass. What cannot be carried over is in
+    Lines in series from an anchor to a body become one force of type `line` or `catenary`, with the
+    masses and floats between them as its attachments or loads. A free point where more than two
+    lines meet becomes a point mass, and so does one with a mass at the end of a line. Free bodies
+    and rods that lines end at become rigid bodies. What cannot be carried over is in
     `Imported.notes`.
 
     Parameters
@@ -42,14 +43,15 @@ def read_moordyn(
     path : path
         The file.
     body : str
-        Body of the case that coupled points (those of a vessel) belong to.
+        Body of the case that coupled points (those of a vessel) belong to, or the only coupled body
+        of the file.
     at : (3,) or (6,) floats, or mapping from str to them, optional
         Where the origin of the coupled points is in the reference pose of the case, world axes [m],
         and how it is turned: roll, pitch, yaw [deg]. Of bodies of the file by their numbers:
         ``{"1": (0, 0, -2)}``; by default they are where the file has them. Key "": coupled points.
     bodies : mapping from str, optional
         Bodies of the case for those of the file, by their numbers there: ``{"1": "float"}``; for
-        turbines of a farm ``{"turbine1": "float"}``.
+        turbines of a farm ``{"turbine1": "float"}``, for rods ``{"rod1": "float"}``.
     type : {"line", "catenary"}
         Dynamic lines with the segments, damping, drag, added mass, bending and seabed of the file,
         or lines at rest at each instant.
@@ -58,8 +60,8 @@ def read_moordyn(
     ------
     CaseError
         The file cannot be read, or it has something without which its moorings would be others:
-        rods that lines end at, stiffness from a table, a seabed that is not flat, a line at rest on
-        a seabed in a way that `catenary` does not know.
+        stiffness from a table, a seabed that is not flat, free bodies or rods at the surface, stiff
+        lines that a rod clamps, a line at rest on a seabed in a way that `catenary` does not know.
     """
     if type not in _DYNAMIC:
         raise CaseError(f"type: expected 'catenary' or 'line' instead of {type!r}")

@@ -158,7 +158,10 @@ def read_deck(path: str | os.PathLike[str]) -> Deck:
     sections = read_sections(file)
     for needed in ("types", "points", "lines"):
         if needed not in sections:
-            raise CaseError(f"{file}: no section with the {needed} of a MoorDyn input file")
+            raise CaseError(
+                f"{file}: no section with the {needed} of a MoorDyn input file; what has no lines "
+                "is no mooring: write its bodies and rods as [[body]] and [[morison]] of the case"
+            )
     old = "DICTIONARY" in sections["types"].heading or "NODE PROP" in sections["points"].heading
     deck = Deck(file, 1 if old or "fx" in sections["points"].columns else 2)
     types = _by_id((t.name, row, t) for row in sections["types"].rows for t in [_type(row)])
@@ -236,7 +239,7 @@ def _type(row: Row) -> Type:
     except ValueError:
         raise row.fail(
             f"line type {row.text('name')!r}: the stiffness {static!r} is a file; a line takes one "
-            "number EA"
+            "number EA [N]: write the slope of its tension over strain at the mean tension"
         ) from None
     further = {key: row.text(key) for key in _OTHERS if row.has(key)}
     further["BA"], *viscous = further["BA"].split("|")
