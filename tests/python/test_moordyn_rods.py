@@ -120,3 +120,14 @@ def test_without_a_depth_the_seabed_is_that_of_the_case(tmp_path: Path) -> None:
     imported = hydrodae.mooring.read_moordyn(file)
     assert "seabed_depth" not in imported.forces[0]
     assert any("the seabed is that of the case" in note for note in imported.notes)
+
+
+def test_lines_at_rest_that_hang_alike_have_equal_modes(tmp_path: Path) -> None:
+    """Pendulums without damping; each has one period in x and in y."""
+    points = "3 Free -5 0 -20 10 0 0 0\n4 Free 5 0 -20 10 0 0 0\n"
+    file = hanging(tmp_path, points=points, ends=("3", "4"), n=1)
+    imported = hydrodae.mooring.read_moordyn(file, type="catenary")
+    found = hydrodae.equilibrium(hydrodae.Case.from_text(imported.to_toml() + ENVIRONMENT))
+    assert len(found.modes) == 6
+    assert [mode.damping_ratio for mode in found.modes] == pytest.approx([0.0] * 6, abs=1e-9)
+    assert found.modes[0].period == pytest.approx(found.modes[3].period, rel=1e-6)

@@ -36,8 +36,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="[N=]NAME",
         action="append",
         default=[],
-        help="body of the case that coupled points belong to (default platform), or that stands "
-        "for body N of the file, or for rodN or turbineN; repeatable",
+        help="body of the case that coupled points belong to (default platform), or that is body "
+        "N, rodN or turbineN of the file; repeatable",
     )
     importing.add_argument(
         "--type",

@@ -60,8 +60,8 @@ def read_moordyn(
     ------
     CaseError
         The file cannot be read, or it has something without which its moorings would be others:
-        stiffness from a table, a seabed that is not flat, free bodies or rods at the surface, stiff
-        lines that a rod clamps, a line at rest on a seabed in a way that `catenary` does not know.
+        stiffness from a table, a seabed that is not flat, free bodies or rods at the surface, or
+        stiff lines that a rod clamps. A line at rest lies in a way that `catenary` does not know.
     """
     if type not in _DYNAMIC:
         raise CaseError(f"type: expected 'catenary' or 'line' instead of {type!r}")

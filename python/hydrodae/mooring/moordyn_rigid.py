@@ -171,7 +171,7 @@ def _body_water(name: str, body: Body, centre: Array) -> dict[str, Any]:
 def _table(name: str, parts: list[_Part]) -> tuple[dict[str, Any], bool]:
     """Keys of the body, and whether it has moments of inertia."""
     mass = sum(part.mass for part in parts)
-    centre = sum(part.mass * part.centre for part in parts) / mass
+    centre = np.sum([part.mass * part.centre for part in parts], axis=0) / mass
     tensor = np.zeros((3, 3))
     for part in parts:
         arm = part.centre - centre
@@ -192,7 +192,7 @@ def _table(name: str, parts: list[_Part]) -> tuple[dict[str, Any], bool]:
     if volume > 0.0:
         table["volume"] = volume
         if spins:
-            moment = sum(part.volume * part.centre for part in parts)
+            moment = np.sum([part.volume * part.centre for part in parts], axis=0)
             table["center_of_buoyancy"] = (moment / volume).tolist()
     return table, spins
 
