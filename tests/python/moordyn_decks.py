@@ -233,3 +233,52 @@ ID LineType AttachA AttachB UnstrLen NumSegs Outputs
 0.7 FrictionCoefficient
 150 WtrDpth
 """
+#: A rod that hangs level on two ropes, 3 m from its ends to the ground above.
+HANGING = """A rod on two ropes
+--- LINE TYPES ---
+TypeName Diam Mass/m EA BA/-zeta EI Cd Ca CdAx CaAx
+(name) (m) (kg/m) (N) (N-s/-) (N-m^2) (-) (-) (-) (-)
+rope 0.05 4.0 1e9 -0.5 0 1.2 1.0 0.1 0.0
+--- ROD TYPES ---
+TypeName Diam Mass/m Cd Ca CdEnd CaEnd
+(name) (m) (kg/m) (-) (-) (-) (-)
+bar 0.5 900 1.1 1.0 0.8 0.6
+--- BODIES ---
+ID Attachment X0 Y0 Z0 r0 p0 y0 Mass CG* I* Volume CdA* Ca
+(#) (-) (m) (m) (m) (deg) (deg) (deg) (kg) (m) (kg-m^2) (m^3) (m^2) (-)
+{bodies}--- RODS ---
+ID RodType Attachment Xa Ya Za Xb Yb Zb NumSegs RodOutputs
+(#) (name) (#/key) (m) (m) (m) (m) (m) (m) (-) (-)
+{rods}
+--- POINTS ---
+ID Attachment X Y Z M V CdA CA
+(#) (-) (m) (m) (m) (kg) (m^3) (m^2) (-)
+1 Fixed -5 0 -10 0 0 0 0
+2 Fixed 5 0 -10 0 0 0 0
+{points}--- LINES ---
+ID LineType AttachA AttachB UnstrLen NumSegs Outputs
+(#) (name) (#) (#) (m) (-) (-)
+1 rope 1 {a} 10 {n} p
+2 rope 2 {b} 10 {n} p
+--- OPTIONS ---
+{depth}
+--- need this line ---
+"""
+ROD = "1 bar Free -5 0 -20 5 0 -20 10 -"
+
+
+def hanging(
+    folder: Path,
+    rods: str = ROD,
+    *,
+    bodies: str = "",
+    points: str = "",
+    ends: tuple[str, str] = ("R1A", "r1b"),
+    n: int = 5,
+    depth: str = "50 WtrDpth",
+) -> Path:
+    """Write that file with other rods, bodies, points, ends of lines, segments or options."""
+    text = HANGING.format(
+        rods=rods, bodies=bodies, points=points, a=ends[0], b=ends[1], n=n, depth=depth
+    )
+    return written(folder, text)

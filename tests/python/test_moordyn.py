@@ -31,7 +31,22 @@ def test_lines_in_series_become_one_force(
 ) -> None:
     deck = written(tmp_path, RM3)
     out = tmp_path / "moorings.toml"
-    assert main(["mooring", "import", str(deck), "--body", "1=spar", "-o", str(out)]) == 0
+    assert (
+        main(
+            [
+                "mooring",
+                "import",
+                str(deck),
+                "--type",
+                "catenary",
+                "-o",
+                str(out),
+                "--body",
+                "1=spar",
+            ]
+        )
+        == 0
+    )
     found = tables(out.read_text())
     assert list(found) == ["force"]
     assert [force["name"] for force in found["force"]] == ["line1_2", "line3_4", "line5_6"]
@@ -51,7 +66,7 @@ def test_lines_in_series_become_one_force(
     notes = [row for row in out.read_text().splitlines() if row.startswith("# -")]
     for word in ("12.566 m2", "dtm 0.01", "kbot 3.0e6", "BA -0.8", "FairTen1", "body 1 is spar"):
         assert any(word in note for note in notes), word
-    imported = hydrodae.mooring.read_moordyn(deck, bodies={"1": "spar"})
+    imported = hydrodae.mooring.read_moordyn(deck, bodies={"1": "spar"}, type="catenary")
     assert imported.to_toml() == out.read_text()
     assert held(first).tension == pytest.approx(held(last).tension, rel=1e-4)
 
@@ -69,7 +84,7 @@ def test_tensions_of_orcaflex(
 ) -> None:
     """WD0050, WD0200, WD0600: static tensions [kN] that MoorDyn states; on its elastic bed."""
     deck = written(tmp_path, OLD.format(x=x, z=z, length=length, depth=-z))
-    (force,) = hydrodae.mooring.read_moordyn(deck).forces
+    (force,) = hydrodae.mooring.read_moordyn(deck, type="catenary").forces
     assert force["body_b"] == "platform"
     line = held(force)
     assert line.tension / 1e3 == pytest.approx(fairlead, rel=0.013)
@@ -99,7 +114,7 @@ def test_dynamic_lines_hold_what_the_file_says(tmp_path: Path, heading: int) -> 
     notes = [row for row in out.read_text().splitlines() if row.startswith("# -")]
     for word in ("kbot", "BA -0.8", "12.566"):
         assert not any(word in note for note in notes), word
-    at_rest = hydrodae.mooring.read_moordyn(deck, bodies={"1": "spar"})
+    at_rest = hydrodae.mooring.read_moordyn(deck, bodies={"1": "spar"}, type="catenary")
     text = PLATFORM.replace("platform", "spar").replace("1025.0", "1000.0\nwater_depth = 70.0")
     case = hydrodae.Case.from_text(text + out.read_text())
     tension = float(hydrodae.Simulation(case).read(f"forces/{force['name']}/tension"))
@@ -108,7 +123,7 @@ def test_dynamic_lines_hold_what_the_file_says(tmp_path: Path, heading: int) -> 
 
 def test_friction_of_a_seabed_is_zero_at_rest(tmp_path: Path) -> None:
     """MoorDyn 2.7 has 974.3 and 1202.2 kN after 200 s, MoorPy without friction 974.6 and 1205.5."""
-    imported = hydrodae.mooring.read_moordyn(written(tmp_path, LYING))
+    imported = hydrodae.mooring.read_moordyn(written(tmp_path, LYING), type="catenary")
     line = held(imported.forces[0])
     assert line.tension_anchor == pytest.approx(974.6e3, rel=1e-4)
     assert line.tension == pytest.approx(1205.5e3, rel=1e-4)
@@ -145,7 +160,7 @@ def test_a_force_on_a_point_of_a_dynamic_line_is_refused(tmp_path: Path) -> None
 def test_jumper_of_lowe_and_langley(tmp_path: Path) -> None:
     """Forces at both ends [kN]: the bar of MoorDyn's own test is 0.2 kN."""
     deck = written(tmp_path, LOWE_LANGLEY)
-    imported = hydrodae.mooring.read_moordyn(deck)
+    imported = hydrodae.mooring.read_moordyn(deck, type="catenary")
     (force,) = imported.forces
     assert force["seabed"] is False
     assert any("EI 1.208e5" in note for note in imported.notes)
@@ -158,7 +173,7 @@ def test_jumper_of_lowe_and_langley(tmp_path: Path) -> None:
 
 def test_a_bridle_has_a_point_mass_in_balance(tmp_path: Path) -> None:
     deck = written(tmp_path, BRIDLE)
-    imported = hydrodae.mooring.read_moordyn(deck)
+    imported = hydrodae.mooring.read_moordyn(deck, type="catenary")
     assert [body["name"] for body in imported.bodies] == ["point2"]
     # Half of a segment of each line: (10 + 8 + 8) m / 2 of 200 kg/m.
     assert imported.bodies[0]["mass"] == pytest.approx(2000.0 + 2600.0)
@@ -179,7 +194,7 @@ def test_a_bridle_has_a_point_mass_in_balance(tmp_path: Path) -> None:
 def test_a_line_with_a_floating_part_keeps_its_seabed(tmp_path: Path) -> None:
     """At rest as the dynamic line, whose seabed is its own, within what 160 segments leave."""
     deck = written(tmp_path, LAZY)
-    (force,) = hydrodae.mooring.read_moordyn(deck).forces
+    (force,) = hydrodae.mooring.read_moordyn(deck, type="catenary").forces
     assert "seabed" not in force
     line = held(force)
     assert line.on_seabed > 50.0
@@ -209,7 +224,7 @@ def test_a_line_at_rest_that_would_lose_its_seabed_is_refused(
     assert change[0] in LAZY
     deck = written(tmp_path, LAZY.replace(*change))
     with pytest.raises(CaseError, match=message):
-        hydrodae.mooring.read_moordyn(deck)
+        hydrodae.mooring.read_moordyn(deck, type="catenary")
     hydrodae.mooring.read_moordyn(deck, type="line")
 
 

@@ -15,7 +15,10 @@ from hydrodae.errors import CaseError
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ((" 1        2 ", " 1        R1A "), r"lines.txt:\d+: line 1 ends at 'R1A'.*rods"),
+        (
+            (" 1        2 ", " 1        R1A "),
+            r"lines.txt:\d+: line 1 ends at 'R1A'.*no point or rod of the file",
+        ),
         (("583.376e6", "chain.dat"), r"lines.txt:6: line type 'chain'.*'chain.dat' is a file"),
         (("chain       1 ", "wire        1 "), r"no line type 'wire'; there are: chain"),
         (("Body1        -3", "Turbine1     -3"), r"turbine1: which body .*--body turbine1=NAME"),
@@ -137,7 +140,12 @@ def test_a_place_for_what_no_line_ends_at_is_refused(
     )
 
 
-def test_a_body_of_the_file_needs_one_of_the_case(tmp_path: Path) -> None:
+def test_bodies_of_the_file_need_those_of_the_case_unless_there_is_one(tmp_path: Path) -> None:
+    """A single coupled body is the one of --body, as coupled points are."""
     deck = written(tmp_path, RM3)
+    imported = hydrodae.mooring.read_moordyn(deck, body="spar")
+    assert [force["body_b"] for force in imported.forces] == ["spar"] * 3
+    row = next(row for row in RM3.splitlines(keepends=True) if row.startswith("1     Coupled"))
+    deck.write_text(RM3.replace(row, row + row.replace("1 ", "2 ", 1)))
     with pytest.raises(CaseError, match=r"body 1: which body of the case.*--body 1=NAME"):
         hydrodae.mooring.read_moordyn(deck)

@@ -88,7 +88,7 @@ bool coincide(const Vector3& a, const Vector3& b) {
 }
 
 void check(const Scene& scene) {
-  if (scene.bodies.empty())
+  if (scene.bodies.empty() && std::get<std::vector<line::Line>>(scene.forces).empty())
     throw ModelError("body", "the case has no [[body]]");
   std::vector<std::string> bodies; // bodies of the case
   for (const Body& body : scene.bodies)

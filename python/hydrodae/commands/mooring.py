@@ -36,14 +36,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="[N=]NAME",
         action="append",
         default=[],
-        help="body of the case that coupled points belong to (default platform), or that stands "
-        "for body N of the file; repeatable",
+        help="body of the case that coupled points belong to (default platform), or that is body "
+        "N, rodN or turbineN of the file; repeatable",
     )
     importing.add_argument(
         "--type",
-        choices=("catenary", "line"),
-        default="catenary",
-        help="lines at rest at each instant, or dynamic lines (default %(default)s)",
+        choices=("line", "catenary"),
+        default="line",
+        help="dynamic lines, or lines at rest at each instant (default %(default)s)",
     )
     importing.add_argument(
         "--at",

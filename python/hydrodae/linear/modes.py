@@ -170,7 +170,8 @@ def _damping_ratio(model: _Reduced, omega: float, shape: Array) -> float:
     for _ in range(30):
         z = model.dynamic_stiffness(w)
         jacobian = np.block([[z, (slope(w) @ v)[:, None]], [left[None, :], np.zeros((1, 1))]])
-        step = np.linalg.solve(jacobian, np.append(-z @ v, 1.0 - left @ v))
+        # a mode among equal ones (a pendulum in x and y) is singular: the shortest step
+        step = np.linalg.lstsq(jacobian, np.append(-z @ v, 1.0 - left @ v), rcond=None)[0]
         w, v = w + step[-1], v + step[:n]
         if not abs(w - omega) < 0.5 * omega:
             return first

@@ -16,14 +16,15 @@ class Imported:
     ----------
     source : str
         The file.
-    bodies, forces, morison : list of dict
-        Keys of each `[[body]]`, `[[force]]` and `[[morison]]`.
+    bodies, joints, forces, morison : list of dict
+        Keys of each `[[body]]`, `[[joint]]`, `[[force]]` and `[[morison]]`.
     notes : list of str
         What the tables do not hold of the file, and what was assumed.
     """
 
     source: str
     bodies: list[dict[str, Any]] = field(default_factory=list)
+    joints: list[dict[str, Any]] = field(default_factory=list)
     forces: list[dict[str, Any]] = field(default_factory=list)
     morison: list[dict[str, Any]] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
@@ -36,6 +37,7 @@ class Imported:
         lines = [f"# Moorings of {self.source}", *(f"# - {note}" for note in self.notes)]
         for header, tables in (
             ("body", self.bodies),
+            ("joint", self.joints),
             ("force", self.forces),
             ("morison", self.morison),
         ):

@@ -16,6 +16,7 @@ from hydrodae.mooring.moordyn_chains import Chain, find_chains
 from hydrodae.mooring.moordyn_deck import Deck, Line, Point, read_deck
 from hydrodae.mooring.moordyn_lines import CARRIED, is_zero, line_keys, lost_of
 from hydrodae.mooring.moordyn_places import COUPLED, Places, poses
+from hydrodae.mooring.moordyn_rigid import add_rigid_bodies, note_clamps
 from hydrodae.support.arrays import Array
 
 _CARRIED = ("g", "rho", "wtrdpth")
@@ -27,13 +28,14 @@ def read_moordyn(
     body: str = "platform",
     at: Sequence[float] | Mapping[str, Sequence[float]] | None = None,
     bodies: Mapping[str, str] | None = None,
-    type: Literal["catenary", "line"] = "catenary",
+    type: Literal["line", "catenary"] = "line",
 ) -> Imported:
     """Read a MoorDyn input file, version 1 or 2, as tables of a case.
 
-    Lines in series from an anchor to a body become one force of type `catenary` or `line`, with the
-    masses and floats between them as its loads or attachments. A free point where more than two
-    lines meet, or one ends, becomes a point mass. What cannot be carried over is in
+    Lines in series from an anchor to a body become one force of type `line` or `catenary`, with the
+    masses and floats between them as its attachments or loads. A free point where more than two
+    lines meet becomes a point mass, and so does one with a mass at the end of a line. Free bodies
+    and rods that lines end at become rigid bodies. What cannot be carried over is in
     `Imported.notes`.
 
     Parameters
@@ -41,24 +43,25 @@ def read_moordyn(
     path : path
         The file.
     body : str
-        Body of the case that coupled points (those of a vessel) belong to.
+        Body of the case that coupled points (those of a vessel) belong to, or the only coupled body
+        of the file.
     at : (3,) or (6,) floats, or mapping from str to them, optional
         Where the origin of the coupled points is in the reference pose of the case, world axes [m],
         and how it is turned: roll, pitch, yaw [deg]. Of bodies of the file by their numbers:
         ``{"1": (0, 0, -2)}``; by default they are where the file has them. Key "": coupled points.
     bodies : mapping from str, optional
         Bodies of the case for those of the file, by their numbers there: ``{"1": "float"}``; for
-        turbines of a farm ``{"turbine1": "float"}``.
-    type : {"catenary", "line"}
-        Lines at rest at each instant, or dynamic ones with the segments, damping, drag, added mass,
-        bending and seabed of the file.
+        turbines of a farm ``{"turbine1": "float"}``, for rods ``{"rod1": "float"}``.
+    type : {"line", "catenary"}
+        Dynamic lines with the segments, damping, drag, added mass, bending and seabed of the file,
+        or lines at rest at each instant.
 
     Raises
     ------
     CaseError
         The file cannot be read, or it has something without which its moorings would be others:
-        rods that lines end at, stiffness from a table, a seabed that is not flat, a line at rest on
-        a seabed in a way that `catenary` does not know.
+        stiffness from a table, a seabed that is not flat, free bodies or rods at the surface, or
+        stiff lines that a rod clamps. A line at rest lies in a way that `catenary` does not know.
     """
     if type not in _DYNAMIC:
         raise CaseError(f"type: expected 'catenary' or 'line' instead of {type!r}")
@@ -98,15 +101,20 @@ class _Conversion:
                 f"weights in water of {deck.density:g} kg/m3 with g = {deck.gravity:g} m/s2; the "
                 "case sets its own in [environment]"
             )
-        if self.assumed_depth:
+        if not self.depth:
+            notes.append("no depth in the file, and no anchor: the seabed is that of the case")
+        elif self.assumed_depth:
             notes.append(
                 f"no depth down to the lowest anchor in the file: the seabed is there, at z = "
                 f"{-self.depth:g} m"
             )
+        hanging = [chain.ends[1].id for chain in chains if chain.hangs and self.dynamic]
         for point in junctions:
-            self._junction(point)
+            if point.id not in hanging:
+                self._junction(point)
         for chain in chains:
             self._chain(chain)
+        add_rigid_bodies(deck, self.places, self.out)
         self.places.check()
         notes += self.places.notes()
         self._note_types()
@@ -124,7 +132,7 @@ class _Conversion:
             if not _is_number(text) or (key != "wtrdpth" and text != "0"):
                 raise CaseError(
                     f"{deck.file}: the seabed of {text!r} is not flat, which is not carried over; "
-                    "write one depth [m] as WtrDpth"
+                    f"take that line out of the options, and write one depth [m] as WtrDpth"
                 )
         depth = deck.option("wtrdpth", 0.0)
         fixed = [p.place[2] for p in deck.points.values() if p.attachment == "fixed"]
@@ -136,30 +144,42 @@ class _Conversion:
         return (point.mass - density * point.volume) * self.deck.gravity - point.force[2]
 
     def _chain(self, chain: Chain) -> None:
-        deck = self.deck
         (body_a, place_a), (body_b, place_b) = map(self.places.owner, chain.ends)
         label = ("line " if len(chain.lines) == 1 else "lines ") + ", ".join(
             line.id for line in chain.lines
         )
         if self.dynamic:
-            self.out.forces.append(
-                {
-                    "type": "line",
-                    "name": "line" + "_".join(line.id for line in chain.lines),
-                    "body_a": body_a,
-                    "body_b": body_b,
-                    "point_a": place_a.tolist(),
-                    "point_b": place_b.tolist(),
-                    **line_keys(deck, chain, self.depth),
-                }
-            )
+            self._dynamic_line(chain, label, (body_a, place_a), (body_b, place_b))
             return
         self._line_at_rest(chain, label, (body_a, place_a), (body_b, place_b))
+
+    def _dynamic_line(
+        self, chain: Chain, label: str, a: tuple[str, Array], b: tuple[str, Array]
+    ) -> None:
+        notes = self.out.notes
+        notes += note_clamps(chain, self.deck)
+        table: dict[str, Any] = {
+            "type": "line",
+            "name": "line" + "_".join(line.id for line in chain.lines),
+            "body_a": a[0],
+            "body_b": b[0],
+            "point_a": a[1].tolist(),
+            "point_b": b[1].tolist(),
+            **line_keys(self.deck, chain, self.depth),
+        }
+        if chain.hangs:
+            del table["body_b"]
+            table["free_end"] = True
+            notes.append(f"{label}: point {chain.ends[1].id} is a free end, at rest at the start")
+        if table["segments"] != [line.segments for line in chain.lines]:
+            notes.append(f"{label}: two segments in place of one, the fewest that a line has")
+        self.out.forces.append(table)
 
     def _line_at_rest(
         self, chain: Chain, label: str, a: tuple[str, Array], b: tuple[str, Array]
     ) -> None:
-        lies = a[0] == "ground" and abs(a[1][2] + self.depth) <= 1e-3 * self.depth
+        on_bed = abs(a[1][2] + self.depth) <= 1e-3 * self.depth
+        lies = self.depth > 0.0 and a[0] == "ground" and on_bed
         table: dict[str, Any] = {
             "type": "catenary",
             "name": "line" + "_".join(line.id for line in chain.lines),
@@ -280,9 +300,13 @@ class _Conversion:
             if lost:
                 self.out.notes.append(f"line type {kind.name}: without {', '.join(lost)}{why}")
 
+    def _is_part(self, point: Point) -> bool:
+        """Whether its mass and volume are in the tables of a free body."""
+        return point.attachment.removeprefix("body") in self.places.made
+
     def _note_bodies(self) -> None:
         for body in self.deck.bodies.values():
-            if body.attachment != "fixed":
+            if body.attachment != "fixed" and body.id not in self.places.made:
                 known = body.id in self.places.used and self.places.names[body.id]
                 self.out.notes.append(
                     f"body {body.id}"
@@ -294,6 +318,8 @@ class _Conversion:
         deck, notes = self.deck, self.out.notes
         ends = {end for line in deck.lines for end in line.ends}
         for point in deck.points.values():
+            if point.rod or self._is_part(point):
+                continue
             if point.id not in ends:
                 notes.append(f"point {point.id}: left out, no line ends at it")
             elif point.attachment != "free" and (point.mass or point.volume or point.drag_area):

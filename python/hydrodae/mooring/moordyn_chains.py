@@ -19,11 +19,14 @@ class Chain:
         From A to B.
     between : tuple of Point
         Free points between the lines, one less than these.
+    hangs : bool
+        Whether end B is free, with nothing there.
     """
 
     ends: tuple[Point, Point]
     lines: tuple[Line, ...]
     between: tuple[Point, ...]
+    hangs: bool = False
 
 
 def find_chains(deck: Deck) -> tuple[list[Chain], list[Point]]:
@@ -47,8 +50,8 @@ def find_chains(deck: Deck) -> tuple[list[Chain], list[Point]]:
         for end in line.ends:
             if end not in at:
                 raise line.row.fail(
-                    f"line {line.id} ends at {end!r}, which is no point of the file; rods are not "
-                    "carried over"
+                    f"line {line.id} ends at {end!r}, which is no point or rod of the file; points "
+                    "are written 4, P4 or Point4, ends of rods R1A and R1B"
                 )
             at[end].append(line)
     inner = {
@@ -87,9 +90,11 @@ def _follow(
         lines.append(second if first is lines[-1] else first)
         end = _other(lines[-1], end)
     a, b = deck.points[start], deck.points[end]
-    if _rank(b) < _rank(a):
-        return Chain((b, a), tuple(reversed(lines)), tuple(reversed(between)))
-    return Chain((a, b), tuple(lines), tuple(between))
+    bare = [point.is_bare and len(at[point.id]) == 1 for point in (a, b)]
+    hangs = bare[0] != bare[1]
+    if bare[0] if hangs else _rank(b) < _rank(a):
+        return Chain((b, a), tuple(reversed(lines)), tuple(reversed(between)), hangs)
+    return Chain((a, b), tuple(lines), tuple(between), hangs)
 
 
 def _rank(point: Point) -> tuple[bool, float]:

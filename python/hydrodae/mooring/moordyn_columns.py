@@ -61,8 +61,10 @@ COLUMNS: dict[str, tuple[Column, ...]] = {
     "lines": (
         _needed("id", "the number of the line", "ID", "Line"),
         _needed("type", "the type of the line", "LineType", "Type", "TypeName"),
-        _needed("a", "end A", "AttachA", "NodeA", "NodeAnch", "EndA", "Anchor"),
-        _needed("b", "end B", "AttachB", "NodeB", "NodeFair", "EndB", "Fairlead"),
+        _needed("a", "end A", "AttachA", "NodeA", "AttachAnch", "NodeAnch", "EndA",
+                "Anchor"),
+        _needed("b", "end B", "AttachB", "NodeB", "AttachFair", "NodeFair", "EndB",
+                "Fairlead"),
         _needed("length", "the unstretched length", "UnstrLen", "UnstrLength", "Length", unit="m"),
         _needed("segments", "the number of segments", "NumSegs", "NumSeg", "Segments"),
         _optional("outputs", "outputs", "LineOutputs", "Outputs", "Flags/Outputs", "Flags", "Outs"),
@@ -80,6 +82,25 @@ COLUMNS: dict[str, tuple[Column, ...]] = {
         _optional("volume", "the volume", "Volume", "V", "Vol"),
         _optional("CdA", "the drag area", "CdA"),
         _optional("Ca", "the added mass coefficient", "Ca"),
+    ),
+    "rod types": (
+        _needed("name", "the name", "TypeName", "RodType", "Name", "Type"),
+        _needed("diameter", "the diameter", "Diam", "Diameter", "D", unit="m"),
+        _needed("mass", "the mass per length", "Mass/m", "MassDen", "MassDenInAir", "Mass/length",
+                unit="kg/m"),
+        _needed("Cd", "the drag across", "Cd", "Cdn"),
+        _needed("Ca", "the added mass across", "Ca", "Can"),
+        _optional("CdEnd", "the drag of an end", "CdEnd"),
+        _optional("CaEnd", "the added mass of an end", "CaEnd"),
+    ),
+    "rods": (
+        _needed("id", "the number of the rod", "ID", "Rod", "RodID"),
+        _needed("type", "the type of the rod", "RodType", "Type", "TypeName"),
+        _needed("attachment", "the attachment", "Attachment", "Attach"),
+        *(_needed(axis + end, "a coordinate", axis.upper() + end, unit="m")
+          for end in "ab" for axis in "xyz"),
+        _needed("segments", "the number of segments", "NumSegs", "NumSeg", "Segments"),
+        _optional("outputs", "outputs", "RodOutputs", "Outputs", "Flags", "Outs"),
     ),
 }  # fmt: skip
 #: As MoorDyn 2 takes the columns of line types, by their places.

@@ -60,6 +60,13 @@ class Point:
     drag_area: float  #: [m2]
     added_mass: float
     row: Row
+    rod: str = ""  #: whose end this is
+
+    @property
+    def is_bare(self) -> bool:
+        """Whether it is free, and nothing is there."""
+        loads = (self.mass, self.volume, self.drag_area, *self.force)
+        return self.attachment == "free" and not any(loads)
 
 
 @dataclass(frozen=True)
@@ -82,6 +89,23 @@ class Body:
     attachment: str  #: lower case
     place: tuple[float, float, float]  #: [m]
     angles: tuple[float, float, float]  #: roll, pitch, yaw [deg]
+    mass: float  #: [kg]
+    centre: tuple[float, float, float]  #: of gravity, from the place in axes of the body [m]
+    inertia: tuple[float, float, float]  #: moments about that centre, axes of the body [kg m2]
+    volume: float  #: [m3]
+    drag_area: float  #: [m2]
+    added_mass: float
+    row: Row
+
+
+@dataclass(frozen=True)
+class Rod:
+    """A rigid cylinder between two points, or the clamp of lines where its length is zero."""
+
+    id: str
+    attachment: str  #: as that of a point; with "pinned" after it: only its place is held
+    type: Row
+    ends: tuple[tuple[float, float, float], tuple[float, float, float]]  #: A and B [m]
     row: Row
 
 
@@ -94,6 +118,7 @@ class Deck:
     points: dict[str, Point] = field(default_factory=dict)
     lines: list[Line] = field(default_factory=list)
     bodies: dict[str, Body] = field(default_factory=dict)
+    rods: dict[str, Rod] = field(default_factory=dict)
     options: dict[str, str] = field(default_factory=dict)  #: by lower-case key
     outputs: list[str] = field(default_factory=list)
     unread: dict[str, int] = field(default_factory=dict)  #: other sections: number of lines
@@ -133,12 +158,22 @@ def read_deck(path: str | os.PathLike[str]) -> Deck:
     sections = read_sections(file)
     for needed in ("types", "points", "lines"):
         if needed not in sections:
-            raise CaseError(f"{file}: no section with the {needed} of a MoorDyn input file")
+            raise CaseError(
+                f"{file}: no section with the {needed} of a MoorDyn input file; what has no lines "
+                "is no mooring: write its bodies and rods as [[body]] and [[morison]] of the case"
+            )
     old = "DICTIONARY" in sections["types"].heading or "NODE PROP" in sections["points"].heading
     deck = Deck(file, 1 if old or "fx" in sections["points"].columns else 2)
     types = _by_id((t.name, row, t) for row in sections["types"].rows for t in [_type(row)])
     deck.points = _by_id((p.id, p.row, p) for p in map(_point, sections["points"].rows))
-    lines = _by_id((n.id, n.row, n) for n in (_line(r, types) for r in sections["lines"].rows))
+    rod_types = {row.text("name"): row for row in sections.get("rod types", Section("")).rows}
+    rods = sections.get("rods", Section("")).rows
+    deck.rods = _by_id((r.id, r.row, r) for r in (_rod(row, rod_types) for row in rods))
+    deck.points |= {p.id: p for rod in deck.rods.values() for p in _rod_ends(rod)}
+    joined = [rod.id for rod in deck.rods.values() if rod.ends[0] == rod.ends[1]]
+    lines = _by_id(
+        (n.id, n.row, n) for n in (_line(r, types, joined) for r in sections["lines"].rows)
+    )
     deck.lines = list(lines.values())
     bodies = sections.get("bodies", Section(""))
     deck.bodies = _by_id((b.id, b.row, b) for b in map(_body, bodies.rows))
@@ -147,7 +182,7 @@ def read_deck(path: str | os.PathLike[str]) -> Deck:
         deck.options[key] = value
     outputs = [word for row in sections.get("outputs", Section("")).rows for word in row.words]
     deck.outputs = [word for word in outputs if word.upper() != "END"]
-    read = ("types", "points", "lines", "bodies", "options", "outputs")
+    read = ("types", "points", "lines", "bodies", "rod types", "rods", "options", "outputs")
     deck.unread = {n: len(s.rows) for n, s in sections.items() if n not in read and s.rows}
     if deck.version > 1:
         deck.notes = _other_order(sections)
@@ -204,7 +239,7 @@ def _type(row: Row) -> Type:
     except ValueError:
         raise row.fail(
             f"line type {row.text('name')!r}: the stiffness {static!r} is a file; a line takes one "
-            "number EA"
+            "number EA [N]: write the slope of its tension over strain at the mean tension"
         ) from None
     further = {key: row.text(key) for key in _OTHERS if row.has(key)}
     further["BA"], *viscous = further["BA"].split("|")
@@ -222,14 +257,9 @@ def _type(row: Row) -> Type:
 
 
 def _point(row: Row) -> Point:
-    word = row.text("attachment").lower()
-    owner = re.fullmatch(r"([a-z]+)(\d+)", word)
-    attachment = _ATTACHMENTS.get(word, word)
-    if owner and owner[1] in _OWNERS:
-        attachment = _OWNERS[owner[1]] + owner[2]
     return Point(
         row.text("id"),
-        attachment,
+        _attachment(row.text("attachment").lower()),
         _three(row, "xyz", "a coordinate"),
         row.value("mass", "the mass"),
         row.value("volume", "the volume"),
@@ -240,7 +270,42 @@ def _point(row: Row) -> Point:
     )
 
 
-def _line(row: Row, types: dict[str, Type]) -> Line:
+def _attachment(word: str) -> str:
+    owner = re.fullmatch(r"([a-z]+)(\d+)", word)
+    if owner and owner[1] in _OWNERS:
+        return _OWNERS[owner[1]] + owner[2]
+    return _ATTACHMENTS.get(word, word)
+
+
+def _rod(row: Row, types: dict[str, Row]) -> Rod:
+    kind, word = row.text("type"), row.text("attachment").lower()
+    if kind not in types:
+        raise row.fail(f"no rod type {kind!r}; there are: {', '.join(types)}")
+    held, pinned, rest = word.partition("pinned")
+    if rest or (pinned and _attachment(held) in ("", "free")):
+        raise row.fail(f"rod {row.text('id')}: unknown attachment {row.text('attachment')!r}")
+    a, b = (_three(row, [axis + end for axis in "xyz"], "a coordinate") for end in "ab")
+    # ends of a rod without segments are one place, whatever B is
+    ends = (a, b if row.value("segments", "the number of segments") else a)
+    return Rod(row.text("id"), _attachment(held) + pinned, types[kind], ends, row)
+
+
+def _rod_ends(rod: Rod) -> list[Point]:
+    """Points that lines end at: both ends of a rod, or one for a rod of no length."""
+    names = [f"R{rod.id}A", f"R{rod.id}B"]
+    attachment = rod.attachment
+    if rod.ends[0] == rod.ends[1]:
+        names, attachment = [f"R{rod.id}"], attachment.removesuffix("pinned")
+    elif attachment == "free" or attachment.endswith("pinned"):
+        attachment = f"rod{rod.id}"
+    none = (0.0, 0.0, 0.0)
+    return [
+        Point(name, attachment, place, 0.0, 0.0, none, 0.0, 0.0, rod.row, rod.id)
+        for name, place in zip(names, rod.ends, strict=False)
+    ]
+
+
+def _line(row: Row, types: dict[str, Type], joined: list[str]) -> Line:
     kind = row.text("type")
     if kind not in types:
         raise row.fail(f"no line type {kind!r}; there are: {', '.join(types)}")
@@ -250,12 +315,14 @@ def _line(row: Row, types: dict[str, Type]) -> Line:
         raise row.fail(f"expected a whole number of segments instead of {row.text('segments')!r}")
     if length <= 0.0:
         raise row.fail(f"expected an unstretched length above 0 instead of {row.text('length')!r}")
-    ends = (_end(row.text("a")), _end(row.text("b")))
+    ends = (_end(row.text("a"), joined), _end(row.text("b"), joined))
     return Line(row.text("id"), types[kind], ends, length, int(segments), row)
 
 
-def _end(word: str) -> str:
-    """Number of the point that a line ends at, as 4, P4, Point4, C4 or Con4."""
+def _end(word: str, joined: list[str]) -> str:
+    """Number of the point that a line ends at, as 4, P4, Point4, C4, Con4; or R1A of a rod."""
+    if rod := re.fullmatch(r"(?:r|rod)(\d+)([ab])", word.lower()):
+        return f"R{rod[1]}" + ("" if rod[1] in joined else rod[2].upper())
     found = re.fullmatch(r"(?:c|con|p|point)?(\d+)", word.lower())
     return found[1] if found else word
 
@@ -267,8 +334,37 @@ def _body(row: Row) -> Body:
         _ATTACHMENTS.get(word, word),
         _three(row, "xyz", "a coordinate"),
         _three(row, ("rx", "ry", "rz"), "an angle"),
+        row.value("mass", "the mass", 0.0),
+        _centre(_list(row, "CG")),
+        _three_of(_list(row, "I")),
+        row.value("volume", "the volume", 0.0),
+        _one(row, "CdA"),
+        _one(row, "Ca"),
         row,
     )
+
+
+def _list(row: Row, column: str) -> list[float]:
+    """Numbers of a column that takes several, as 1|2|3."""
+    if not row.has(column):
+        return [0.0]
+    return [number(row, word, f"{column} of the body") for word in row.text(column).split("|")]
+
+
+def _three_of(values: list[float]) -> tuple[float, float, float]:
+    x, y, z = values if len(values) == 3 else 3 * values[:1]
+    return (x, y, z)
+
+
+def _centre(values: list[float]) -> tuple[float, float, float]:
+    """A single number is z."""
+    return _three_of(values) if len(values) == 3 else (0.0, 0.0, values[0])
+
+
+def _one(row: Row, column: str) -> float:
+    """Mean of three directions; numbers of rotation after them are not read."""
+    values = _list(row, column)
+    return sum(values[:3]) / 3 if len(values) > 2 else values[0]
 
 
 def _three(

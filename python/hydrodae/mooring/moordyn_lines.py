@@ -33,7 +33,7 @@ def line_keys(deck: Deck, chain: Chain, depth: float) -> dict[str, Any]:
     chain : Chain
         Lines in series.
     depth : float
-        Of the seabed [m].
+        Of the seabed [m]; 0: that of the case.
 
     Raises
     ------
@@ -48,6 +48,8 @@ def line_keys(deck: Deck, chain: Chain, depth: float) -> dict[str, Any]:
         "stiffness": [line.type.stiffness for line in chain.lines],
         "damping": [_damping(line) for line in chain.lines],
     }
+    if table["segments"] == [1]:
+        table["segments"] = [2]  # the fewest
     for key, name in _COEFFICIENTS.items():
         values = [_coefficient(line, name) for line in chain.lines]
         if any(values):
@@ -55,14 +57,21 @@ def line_keys(deck: Deck, chain: Chain, depth: float) -> dict[str, Any]:
     if any(table["damping"]):
         table["damps_slack"] = True
     table |= _attachments(chain)
-    table["seabed_depth"] = depth
+    if depth > 0.0:
+        table["seabed_depth"] = depth
     table["seabed_stiffness"] = deck.option("kbot", _BED_STIFFNESS)
     table["seabed_damping"] = deck.option("cbot", _BED_DAMPING)
     if table["seabed_damping"]:
         table["seabed_damps_up"] = True
     if friction := deck.option("frictioncoefficient", 0.0):
         table["seabed_friction"] = friction
-    table["water_density"] = deck.density
+    if deck.density > 0.0:
+        table["water_density"] = deck.density
+    else:  # no water: only the width on the seabed is left of the diameter
+        table["contact_diameter"] = table.pop("diameter")
+        dry = ("drag", "drag_axial", "added_mass", "added_mass_axial")
+        wet = ("attachment_volume", "attachment_drag_area", "attachment_added_mass")
+        table = {key: value for key, value in table.items() if key not in dry + wet}
     if not deck.option("wavekin", 0.0):
         table["waves"] = False
     return {key: value for key, value in table.items() if value != []}

@@ -47,6 +47,18 @@ class Places:
     names: dict[str, str]
     at: dict[str, Pose]
     used: set[str] = field(default_factory=set)
+    made: set[str] = field(default_factory=set)  #: free bodies and rods with tables here
+
+    def __post_init__(self) -> None:
+        """A single coupled body stands for the vessel, if no point is coupled by itself."""
+        coupled = [b.id for b in self.deck.bodies.values() if b.attachment in _OF_VESSEL]
+        if len(coupled) == 1 and all(p.attachment != "coupled" for p in self.deck.points.values()):
+            self.names.setdefault(coupled[0], self.names[COUPLED])
+
+    def is_own(self, key: str) -> bool:
+        """Whether this is a free body of the file, or a rod that turns freely."""
+        body = self.deck.bodies.get(key)
+        return body.attachment == "free" if body else key.removeprefix("rod") in self.deck.rods
 
     def owner(self, point: Point) -> tuple[str, Array]:
         """Return the body of the case that a point belongs to, or ground, and its place."""
@@ -58,6 +70,9 @@ class Places:
         body = self.deck.bodies.get(key)
         if body is not None and body.attachment == "fixed":
             return "ground", pose((*body.place, *body.angles)).of(point.place)
+        if self.is_own(key) and key not in self.names:
+            self.made.add(key)
+            return (f"body{key}" if body else key), self.pose(key).of(point.place)
         if key not in self.names:
             row = point.row if body is None else body.row
             what = f"body {key}" if body is not None else key
@@ -89,7 +104,7 @@ class Places:
             There is one of them.
         """
         for key in self.at:
-            if key in self.used:
+            if key in self.used | self.made:
                 continue
             others = ", ".join(f"--at {name}=X,Y,Z" for name in sorted(self.used) if name)
             what = f"{key!r}" if key else "coupled points"
@@ -98,7 +113,8 @@ class Places:
                 + (f"; there is {others}" if others else "")
             )
         for key in self.names:
-            if key and key not in self.used and key not in self.deck.bodies:
+            rod = key.startswith("rod") and key[3:] in self.deck.rods
+            if key and key not in self.used and key not in self.deck.bodies and not rod:
                 raise CaseError(f"{self.deck.file}: no body {key!r} in the file")
 
     def notes(self) -> list[str]:
@@ -121,6 +137,8 @@ class Places:
             return kind
         if kind in _OF_VESSEL:
             return COUPLED
+        if point.rod and kind == f"rod{point.rod}":
+            return kind
         number = kind.removeprefix("body")
         if kind == number or number not in self.deck.bodies:
             raise point.row.fail(

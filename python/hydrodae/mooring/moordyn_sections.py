@@ -132,6 +132,8 @@ def _without_comment(line: str, in_table: bool) -> str:
 def _take(name: str, section: Section, row: Row) -> None:
     if name in _WITHOUT_COLUMN_NAMES:
         section.rows.append(row)
+    elif not section.written and re.fullmatch(r"\d+ n[a-z]+", " ".join(row.words[:2]).lower()):
+        return  # count of the rows in the oldest files: 2 NTypes
     elif not section.written:
         section.written = row.words
         section.columns = _columns(name, section, row) if name in COLUMNS else row.words
@@ -161,7 +163,8 @@ def _columns(name: str, section: Section, row: Row) -> list[str]:
         column = find_column(name, word, out)
         if column is None:
             raise row.fail(
-                f"{section.heading}: unknown column {word!r}; there are: {_known(COLUMNS[name])}"
+                f"{section.heading}: unknown column {word!r}; take it out with its numbers, or "
+                f"give it one of these names: {_known(COLUMNS[name])}"
             )
         if column.key in out:
             raise row.fail(f"{section.heading}: two columns for {column.what}, one is {word!r}")
