@@ -44,6 +44,20 @@ def test_water_on_a_rod_is_that_on_its_side_and_on_its_ends(tmp_path: Path) -> N
     assert water["added_mass_axial"] * volume == pytest.approx(0.6 * math.pi / 6.0 * d**3)
 
 
+def test_loads_of_water_that_lose_their_directions_are_named(tmp_path: Path) -> None:
+    body = "1 Free 0 0 -20 0 0 0 1000 0 10 0.5 1|2|3|0|0|4 0.5|0.5|0.5\n"
+    points = "3 Body1 0 5 0 0 0 0 0\n4 Body1 0 -5 0 0 0 0 0\n"
+    imported = hydrodae.mooring.read_moordyn(
+        hanging(tmp_path, "", bodies=body, points=points, ends=("3", "4"))
+    )
+    assert imported.morison[0]["area"] == 2.0
+    notes = [note for note in imported.notes if note.startswith("body1: C")]
+    assert notes == [
+        "body1: CdA is the mean drag area of three directions",
+        "body1: CdA is without that of rotations",
+    ]
+
+
 def test_a_free_body_carries_its_rods_and_points(tmp_path: Path) -> None:
     """Masses about their common centre, turned with the body."""
     body = "1 Free 0 0 -20 0 0 90 1000 0|0|-1 10|20|30 0.5 2.0 1.0\n"

@@ -335,17 +335,17 @@ def _body(row: Row) -> Body:
         _three(row, "xyz", "a coordinate"),
         _three(row, ("rx", "ry", "rz"), "an angle"),
         row.value("mass", "the mass", 0.0),
-        _centre(_list(row, "CG")),
-        _three_of(_list(row, "I")),
+        _centre(directions(row, "CG")),
+        _three_of(directions(row, "I")),
         row.value("volume", "the volume", 0.0),
-        _one(row, "CdA"),
-        _one(row, "Ca"),
+        _mean(directions(row, "CdA")),
+        _mean(directions(row, "Ca")),
         row,
     )
 
 
-def _list(row: Row, column: str) -> list[float]:
-    """Numbers of a column that takes several, as 1|2|3."""
+def directions(row: Row, column: str) -> list[float]:
+    """Return the numbers of a column of a body that takes several, as 1|2|3."""
     if not row.has(column):
         return [0.0]
     return [number(row, word, f"{column} of the body") for word in row.text(column).split("|")]
@@ -361,9 +361,8 @@ def _centre(values: list[float]) -> tuple[float, float, float]:
     return _three_of(values) if len(values) == 3 else (0.0, 0.0, values[0])
 
 
-def _one(row: Row, column: str) -> float:
-    """Mean of three directions; numbers of rotation after them are not read."""
-    values = _list(row, column)
+def _mean(values: list[float]) -> float:
+    """Mean of three directions; numbers of rotation may follow them."""
     return sum(values[:3]) / 3 if len(values) > 2 else values[0]
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from hydrodae.mooring.imported import Imported
 from hydrodae.mooring.moordyn_chains import Chain
-from hydrodae.mooring.moordyn_deck import Body, Deck, Rod
+from hydrodae.mooring.moordyn_deck import Body, Deck, Rod, directions
 from hydrodae.mooring.moordyn_places import Places
 from hydrodae.support.arrays import Array
 
@@ -89,6 +89,7 @@ def _add(
     out.bodies.append(table)
     if body is not None and (body.drag_area or body.added_mass * body.volume):
         out.morison.append(_body_water(name, body, parts[-1].centre))
+        out.notes += _averaged(name, body)
     if rods and body is None and rods[0].attachment.endswith("pinned"):
         out.joints.append(_pin(places, rods[0], name))
     out.notes.append(f"{name} is a rigid body with {mass:g} kg, its buoyancy and its drag")
@@ -166,6 +167,18 @@ def _body_water(name: str, body: Body, centre: Array) -> dict[str, Any]:
     if body.added_mass * body.volume:
         table["added_mass_coefficient"] = body.added_mass
     return table
+
+
+def _averaged(name: str, body: Body) -> list[str]:
+    """Say which loads of water lose their directions."""
+    out = []
+    for column, what in (("CdA", "drag area"), ("Ca", "added mass")):
+        values = directions(body.row, column)
+        if len(set(values[:3])) > 1:
+            out.append(f"{name}: {column} is the mean {what} of three directions")
+        if any(values[3:]):
+            out.append(f"{name}: {column} is without that of rotations")
+    return out
 
 
 def _table(name: str, parts: list[_Part]) -> tuple[dict[str, Any], bool]:
