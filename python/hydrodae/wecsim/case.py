@@ -31,6 +31,7 @@ from hydrodae.wecsim.objects import InputFile
 from hydrodae.wecsim.remarks import Remarks
 from hydrodae.wecsim.sea import add_solver, add_waves, radiation_of
 from hydrodae.wecsim.slx import Model, read_slx
+from hydrodae.wecsim.sea_states import POWER_MATRIX, write_power_matrix
 from hydrodae.wecsim.stages import POWERS
 from hydrodae.wecsim.text import CaseText
 from hydrodae.wecsim.topology import Topology, find_topology
@@ -121,6 +122,8 @@ def convert(
                 return text
 
             write_study(conditions, read, str(text), again, target)
+        elif not functions.laws:
+            write_power_matrix(str(text), target)
         _unused(read)
         if functions.laws and (target / STUDY).is_file():
             told = f"{STUDY}: `hydrodae sweep` takes no {FUNCTIONS}; run the conditions by --set"
@@ -145,6 +148,7 @@ def convert(
             target / FUNCTIONS,
             target / STUDY,
             target / POWERS,
+            target / POWER_MATRIX,
         ]:
             file.unlink(missing_ok=True)
         for folder in (target / "shapes", target) if made else (target / "shapes",):
