@@ -30,8 +30,8 @@ from hydrodae.wecsim.moorings import add_mooring
 from hydrodae.wecsim.objects import InputFile
 from hydrodae.wecsim.remarks import Remarks
 from hydrodae.wecsim.sea import add_solver, add_waves, radiation_of
-from hydrodae.wecsim.slx import Model, read_slx
 from hydrodae.wecsim.sea_states import POWER_MATRIX, write_power_matrix
+from hydrodae.wecsim.slx import Model, read_slx
 from hydrodae.wecsim.stages import POWERS
 from hydrodae.wecsim.text import CaseText
 from hydrodae.wecsim.topology import Topology, find_topology
