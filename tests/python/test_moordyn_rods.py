@@ -44,18 +44,28 @@ def test_water_on_a_rod_is_that_on_its_side_and_on_its_ends(tmp_path: Path) -> N
     assert water["added_mass_axial"] * volume == pytest.approx(0.6 * math.pi / 6.0 * d**3)
 
 
-def test_loads_of_water_that_lose_their_directions_are_named(tmp_path: Path) -> None:
-    body = "1 Free 0 0 -20 0 0 0 1000 0 10 0.5 1|2|3|0|0|4 0.5|0.5|0.5\n"
+@pytest.mark.parametrize(
+    ("drag", "mean", "turns"),
+    [
+        ("1|2|3|0|0|4", True, True),
+        ("2|2|2|0|0|0", False, False),
+        ("2|1", False, True),
+        ("2", False, True),
+    ],
+)
+def test_loads_of_water_that_lose_their_directions_are_named(
+    tmp_path: Path, drag: str, mean: bool, turns: bool
+) -> None:
+    body = f"1 Free 0 0 -20 0 0 0 1000 0 10 0.5 {drag} 0.5|0.5|0.5\n"
     points = "3 Body1 0 5 0 0 0 0 0\n4 Body1 0 -5 0 0 0 0 0\n"
     imported = hydrodae.mooring.read_moordyn(
         hanging(tmp_path, "", bodies=body, points=points, ends=("3", "4"))
     )
     assert imported.morison[0]["area"] == 2.0
     notes = [note for note in imported.notes if note.startswith("body1: C")]
-    assert notes == [
-        "body1: CdA is the mean drag area of three directions",
-        "body1: CdA is without that of rotations",
-    ]
+    assert ("body1: CdA is the mean drag area of three directions" in notes) == mean
+    assert ("body1: CdA is without that of rotations" in notes) == turns
+    assert len(notes) == mean + turns
 
 
 def test_a_free_body_carries_its_rods_and_points(tmp_path: Path) -> None:

@@ -89,6 +89,7 @@ def _add(
     out.bodies.append(table)
     if body is not None and (body.drag_area or body.added_mass * body.volume):
         out.morison.append(_body_water(name, body, parts[-1].centre))
+    if body is not None:
         out.notes += _averaged(name, body)
     if rods and body is None and rods[0].attachment.endswith("pinned"):
         out.joints.append(_pin(places, rods[0], name))
@@ -172,12 +173,13 @@ def _body_water(name: str, body: Body, centre: Array) -> dict[str, Any]:
 def _averaged(name: str, body: Body) -> list[str]:
     """Say which loads of water lose their directions."""
     out = []
-    for column, what in (("CdA", "drag area"), ("Ca", "added mass")):
-        values = directions(body.row, column)
-        if len(set(values[:3])) > 1:
+    drag, added = directions(body.row, "CdA"), directions(body.row, "Ca")
+    for column, what, values in (("CdA", "drag area", drag), ("Ca", "added mass", added)):
+        if len(values) > 2 and len(set(values[:3])) > 1:
             out.append(f"{name}: {column} is the mean {what} of three directions")
-        if any(values[3:]):
-            out.append(f"{name}: {column} is without that of rotations")
+    # one and three numbers are those of rotations too, the second of two is theirs alone
+    if any({2: drag[1:], 6: drag[3:]}.get(len(drag), drag)):
+        out.append(f"{name}: CdA is without that of rotations")
     return out
 
 
