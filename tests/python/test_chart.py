@@ -9,7 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from hydrodae import Case
 from hydrodae.commands import cli
+from hydrodae.errors import CaseError
 from hydrodae.study.chart import Chart, Run, chart, pareto, recommend
 from hydrodae.study.chart.methods import parse_method, step_ladder
 from hydrodae.study.chart.output import draw, footing, heading
@@ -124,13 +126,20 @@ def test_a_scene_that_no_method_finishes_is_all_failures(repository):
 def test_a_refused_pair_is_marked(pendulum):
     made = chart(
         pendulum,
-        methods=["ida", "gauss"],
+        methods=["radau", "gauss"],
         tolerances=[1e-4],
         steps=[0.01],
         repeat=1,
-        set={"solver.end_time": 0.5, "solver.method": "radau", "solver.formulation": "index_3"},
+        set={
+            "solver.end_time": 0.5,
+            "solver.method": "radau",
+            "solver.formulation": "index_3",
+        },
     )
-    assert [run.outcome for run in made.runs if run.method == "gauss"] == ["refused"]
+    assert [(run.method, run.outcome) for run in made.runs] == [
+        ("radau", "ok"),
+        ("gauss", "refused"),
+    ]
 
 
 def test_recommended_setting_meets_the_error_when_it_is_run(pendulum):
@@ -225,6 +234,46 @@ def test_bad_input_is_one_clear_error(pendulum, tmp_path, capsys, arguments, mes
     printed = capsys.readouterr()
     assert message in printed.err
     assert printed.out == ""
+
+
+LINE = """
+[environment]
+water_depth = 100.0
+{density}
+[[force]]
+type = "line"
+name = "l"
+body_a = "ground"
+body_b = "ground"
+point_a = [0.0, 0.0, -50.0]
+point_b = [60.0, 0.0, -50.0]
+length = [70.0]
+segments = [4]
+mass = [20.0]
+diameter = [0.05]
+stiffness = [1e7]
+waves = true
+[[wave]]
+type = "regular"
+name = "w"
+height = 2.0
+period = 9.0
+[solver]
+end_time = 3.0
+"""
+
+
+def test_a_line_without_bodies_is_compared_by_its_tensions():
+    case = Case.from_text(LINE.format(density="water_density = 1025.0"))
+    made = chart(case, methods=["radau", "ida"], tolerances=[1e-3], repeat=1)
+    assert made.channels
+    assert all("tension" in name for name in made.channels)
+
+
+def test_a_case_that_every_method_refuses_is_one_error():
+    case = Case.from_text(LINE.format(density=""))
+    with pytest.raises(CaseError, match="needs the density of the water"):
+        chart(case, methods=["radau"], tolerances=[1e-3], repeat=1)
 
 
 def test_an_error_that_no_run_meets_names_the_least(pendulum):

@@ -58,7 +58,7 @@ def _add(
 ) -> None:
     parts: list[_Part] = []
     row = rods[0].row if body is None else body.row
-    told = name if body is None else body.id
+    entry = name if body is None else body.id
     for rod in rods:
         a, b = (_world(places, rod, end) for end in rod.ends)
         if rod.ends[0] != rod.ends[1]:
@@ -66,7 +66,7 @@ def _add(
                 raise rod.row.fail(
                     f"rod {rod.id} reaches up to z = {top:g} m, above the water: its buoyancy is "
                     "not carried over; take a body of the case that has hydrostatics of its own: "
-                    f"--body {told}=NAME"
+                    f"--body {entry}=NAME"
                 )
             parts.append(_rod_part(rod, a, b))
             out.morison.append(_rod_water(rod, name, a, b))
@@ -76,15 +76,15 @@ def _add(
     mass = sum(part.mass for part in parts)
     if mass <= 0.0:
         raise row.fail(
-            f"{name.rstrip('0123456789')} {told.removeprefix('rod')} is free and has no mass: "
-            f"write one, or take a body of the case: --body {told}=NAME"
+            f"{name.rstrip('0123456789')} {entry.removeprefix('rod')} is free and has no mass: "
+            f"write one, or take a body of the case: --body {entry}=NAME"
         )
     table, spins = _table(name, parts)
     ends = [end for force in out.forces for end in _ends_at(force, name)]
     if not spins and any(np.abs(end - table["center_of_gravity"]).max() > 1e-9 for end in ends):
         raise row.fail(
-            f"body {told}: lines pull at it beside its centre of gravity, and it has no moments "
-            f"of inertia: write I [kg m2], or take a body of the case: --body {told}=NAME"
+            f"body {entry}: lines pull at it beside its centre of gravity, and it has no moments "
+            f"of inertia: write I [kg m2], or take a body of the case: --body {entry}=NAME"
         )
     out.bodies.append(table)
     if body is not None and (body.drag_area or body.added_mass * body.volume):

@@ -60,14 +60,14 @@ class Solution:
 
 
 def default_channels(results: Results) -> list[str]:
-    """All joint coordinates, or the bodies' positions if no joint has any."""
+    """All joint coordinates; without any the bodies' positions, without these the tensions."""
     joints = [
         name
         for pattern in ("joints/*/angle*", "joints/*/displacement*")
         for name in results.channels(pattern)
         if not name.endswith("_rate")
     ]
-    return joints or results.channels("bodies/*/position")
+    return joints or results.channels("bodies/*/position") or results.channels("forces/*/tension")
 
 
 def pick(results: Results, channels: Sequence[str]) -> tuple[list[str], Solution]:

@@ -43,18 +43,18 @@ class Actuators:
         self.waiting: list[tuple[Link, str, str, str]] = []
 
     def law(self, text: CaseText, link: Link, place: str, name: str, start: float) -> Law | None:
-        """The law of an actuator as spring and damper; None where it is none, or another one."""
+        """Return spring and damper of an actuator; None where its law is not linear."""
         title, remarks = link.item.title, self.read.remarks
         if "Motion" in link.block.kind:
-            told = f"motion of {title} from Simulink: see [[constraint]]"
-            remarks.left_out(place, told, "controller")
+            remark = f"motion of {title} from Simulink: see [[constraint]]"
+            remarks.left_out(place, remark, "controller")
             return None
         try:
             with understood():
                 law = find_law(link.block, link.kind, self.read)
             if law == Law():
-                told = f"force of {title} from Simulink is zero with the gains of the input file"
-                remarks.assumed(place, told)
+                remark = f"force of {title} from Simulink is zero with the gains of the input file"
+                remarks.assumed(place, remark)
             return law
         except NotEvaluated as error:
             why = str(error)
@@ -63,8 +63,8 @@ class Actuators:
                 body = python_law(link.block, link.kind, self.read, start)
         except NotEvaluated as error:
             if link.kind not in COORDINATES:
-                told = f"force of {title} from Simulink: {error}, on a joint of type {link.kind}"
-                remarks.left_out(place, told, "controller")
+                remark = f"force of {title} from Simulink: {error}, on a joint of type {link.kind}"
+                remarks.left_out(place, remark, "controller")
             else:
                 # the second reason says more where blocks were followed further
                 self.waiting.append((link, place, name, why if "negative" in why else str(error)))
@@ -73,8 +73,8 @@ class Actuators:
         keys = {"type": "python_load", "name": force, "joint": name}
         text.table("[[force]]", keys, f"Actuator of {title}: its law is in {FUNCTIONS}.")
         self.file.translated(force, _identifier(force), title, body)
-        told = f"force of {title} from Simulink is {force} of {FUNCTIONS}, translated to Python"
-        remarks.assumed(place, told)
+        remark = f"force of {title} from Simulink is {force} of {FUNCTIONS}, translated to Python"
+        remarks.assumed(place, remark)
         return None
 
     def prepare(self, text: CaseText) -> None:
@@ -94,16 +94,16 @@ class Actuators:
                 outputs.append(f"forces/{force}/load")
             inputs = channels(link.block, self.parts, self.read, markers)
             keys = {"type": "python", "name": law, "inputs": inputs, "outputs": outputs}
-            told = f"Force of {title} from Simulink: zero until {law} of {FUNCTIONS} states it."
-            text.table("[[controller]]", keys | {"period": period}, told)
+            remark = f"Force of {title} from Simulink: zero until {law} of {FUNCTIONS} states it."
+            text.table("[[controller]]", keys | {"period": period}, remark)
             arguments = {argument(channel): channel for channel in inputs}
             blocks = listed(link.block, self.read)
             blocks[:0] = textwrap.wrap(f"Not converted: {why}", 90)
             self.file.prepared(law, _identifier(law), title, arguments, outputs, blocks)
-            told = (
+            remark = (
                 f"force of {title} from Simulink is zero as yet: write {law} of {FUNCTIONS} ({why})"
             )
-            self.read.remarks.left_out(place, told)
+            self.read.remarks.left_out(place, remark)
 
 
 def parts_of(names: dict[int, str], blocks: dict[int, Block]) -> Parts:

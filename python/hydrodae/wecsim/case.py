@@ -126,8 +126,8 @@ def convert(
             write_power_matrix(str(text), target)
         _unused(read)
         if functions.laws and (target / STUDY).is_file():
-            told = f"{STUDY}: `hydrodae sweep` takes no {FUNCTIONS}; run the conditions by --set"
-            read.remarks.left_out(read.path.name, told)
+            remark = f"{STUDY}: `hydrodae sweep` takes no {FUNCTIONS}; run the conditions by --set"
+            read.remarks.left_out(read.path.name, remark)
         if accept is not None:
             read.remarks.check(accept)
         text.head("missing", [str(remark) for remark in read.remarks.of("left out")])
@@ -203,9 +203,9 @@ def _database(
             continue
         if isinstance(stated, list):
             stated = stated[0]
-            told = f"{item.title}: variable hydrodynamics; the first database is taken, and "
-            told += "[[pose_table]] blends those of several poses (docs/cases.md)"
-            read.remarks.left_out(read.place(item.line), told)
+            remark = f"{item.title}: variable hydrodynamics; the first database is taken, and "
+            remark += "[[pose_table]] blends those of several poses (docs/cases.md)"
+            read.remarks.left_out(read.place(item.line), remark)
         wet[number] = name
         sources.setdefault(str(stated), []).append(number)
     simu = read.get("simu")

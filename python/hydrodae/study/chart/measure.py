@@ -99,6 +99,8 @@ def chart(
         for method in chosen
         for setting in (ladder if method.adaptive else by_step)
     ]
+    if runs and all(run.outcome == "refused" for run in runs):
+        raise CaseError(runs[0].reason)
     return Chart(
         title=case.title,
         case=str(case.path or ""),
