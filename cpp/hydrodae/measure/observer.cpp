@@ -62,6 +62,7 @@ Observer::Observer(const Regime& system) : s_(system), ws_(system) {
   out_.in_waves = in_waves_ != nullptr;
   const Eigen::Index loads = s_.hydro.added_mass.all.rows();
   rate_ = momentum_ = radiation_ = VectorX::Zero(loads);
+  moving_ = VectorX::Zero(s_.hydro.n_moving);
 }
 
 /// Adds the next planned load to the list, the power of its component, and the balance.

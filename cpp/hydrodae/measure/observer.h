@@ -50,7 +50,8 @@ public:
   const Observation& observe(double t, const VectorX& y, const VectorX& yp);
   const Observation& observation() const { return out_; }
 
-  /// Fills only loads, reactions, powers and kinetic energies: the data of an energy balance.
+  /// Fills only loads, reactions, powers and kinetic energies: the data of an energy balance. Loads
+  /// of the water on coordinates that cannot move are left out.
   const Observation& observe_balance(double t, const VectorX& y, const VectorX& yp);
 
   /// Fills only the loads of `observation()` and their powers, for reactions that do no work.
@@ -69,7 +70,7 @@ public:
 private:
   void begin(double t, const VectorX& y, const VectorX& yp);
   const element::Elements& observe_loads(const ElementList& list, const double* y);
-  void observe_loads(const HydroData& hydro, const double* y) { observe(hydro, y); }
+  void observe_loads(const HydroData& hydro, const double* y);
   void add_load(const Vector6& world_load);
   void observe_weight();
   void observe(const ElementList& list, const double* y);
@@ -79,6 +80,7 @@ private:
                        const joint::Vec12<double>* rows);
   double power_absorbed(const element::Shape& shape, const PortData& port, const double* in,
                         const double* load, const joint::Vec12<double>* rows) const;
+  void add_loads(const HydroData& hydro);
   void observe_tables(const HydroData& hydro);
   void observe_joints(const double* y);
   void share_reactions(const double* y);
@@ -90,6 +92,7 @@ private:
   Observation out_;
   std::vector<Vector6> totals_; ///< per body: inertia minus all loads, tangent axes
   VectorX rate_, momentum_, radiation_;
+  VectorX moving_; ///< (n_moving,) one of these for the coordinates that move
   /// Values of one list: energies and declared channels, or loads
   std::vector<double> element_values_;
   const element::Elements* in_waves_ = nullptr; ///< law that shows the elevation

@@ -54,16 +54,41 @@ void Observer::observe_tables(const HydroData& h) {
   }
 }
 
+/// Loads of the coordinates that move alone: the others do no work.
+void Observer::observe_loads(const HydroData& h, const double* y) {
+  hydro_motion(s_, ws_);
+  const water::WaterMotion<double> motion = water_motion<double>(s_, ws_, y + h.z0);
+  const auto fill = [&](VectorX& rows, const auto& add) {
+    moving_.setZero();
+    add(moving_.data());
+    rows.setZero();
+    for (int u = 0; u < h.n_moving; ++u)
+      rows[h.coordinates[u].row()] = moving_[u];
+  };
+  const water::AddedMass& mass = h.added_mass;
+  fill(momentum_, [&](double* out) { mass.product.add_product(ws_.U.data(), out); });
+  fill(rate_, [&](double* out) { mass.product.add_product(ws_.U_dot.data(), out); });
+  fill(radiation_, [&](double* out) {
+    h.visit([&](const auto& rung) { rung.add_loads(motion, out); });
+  });
+  add_loads(h);
+}
+
 void Observer::observe(const HydroData& h, const double* y) {
   hydro_motion(s_, ws_);
   momentum_.setZero();
   rate_.setZero();
   h.added_mass.product_all.add_product(ws_.U.data(), momentum_.data());
   h.added_mass.product_all.add_product(ws_.U_dot.data(), rate_.data());
-  observe_tables(h);
   radiation_.setZero();
   const water::WaterMotion<double> motion = water_motion<double>(s_, ws_, y + h.z0);
   h.visit([&](const auto& rung) { rung.add_all_loads(motion, radiation_.data()); });
+  add_loads(h);
+}
+
+/// Loads on the bodies by momentum, its rate, and radiation, (6 n,) in hydrodynamic axes.
+void Observer::add_loads(const HydroData& h) {
+  observe_tables(h);
   for (int u = 0; u < h.n_moving; ++u) {
     const HydroData::Coordinate& k = h.coordinates[u];
     out_.kinetic_added_mass += 0.5 * ws_.U[u] * momentum_[k.row()];
