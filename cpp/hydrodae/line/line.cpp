@@ -5,11 +5,18 @@
 #include <numeric>
 
 #include "hydrodae/core/text.h"
+#include "hydrodae/math/curve.h"
 
 namespace hydrodae::line {
 
 double Line::of_part(const std::vector<double>& values, std::size_t part, double otherwise) {
   return values.empty() ? otherwise : values[values.size() == 1 ? 0 : part];
+}
+
+bool Line::has_curve(std::size_t part) const {
+  return !curve_strain.empty() &&
+         (curve_parts.empty() || std::find(curve_parts.begin(), curve_parts.end(),
+                                           static_cast<double>(part + 1)) != curve_parts.end());
 }
 
 int Line::n_segments() const {
@@ -27,6 +34,39 @@ std::size_t Line::shape() const {
 }
 
 namespace {
+
+/// Checks the curve, and that each part has either a stiffness or the curve.
+std::optional<Fault> fault_of_curve(const Line& of) {
+  if (const std::string_view wrong = Curve::fault(of.curve_strain, of.curve_tension);
+      !wrong.empty())
+    return Fault{"curve_strain", "'curve_strain' " + std::string(wrong) + " 'curve_tension'"};
+  const std::vector<double>& T = of.curve_tension;
+  if (!T.empty() && (of.curve_strain[0] != 0.0 || T[0] != 0.0))
+    return Fault{"curve_strain", "the curve begins at strain 0 and tension 0"};
+  for (std::size_t i = 1; i < T.size(); ++i)
+    if (!(T[i] > T[i - 1]))
+      return Fault{"curve_tension",
+                   "'curve_tension' must ascend: a line that stretches pulls more"};
+  if (T.empty() && !of.curve_parts.empty())
+    return Fault{"curve_parts", "parts of which curve? Write 'curve_strain' and 'curve_tension'"};
+  for (const double part : of.curve_parts)
+    if (!(part >= 1.0 && part <= static_cast<double>(of.length.size()) && part == std::floor(part)))
+      return Fault{"curve_parts", "there is no part " + number_text(part) + "; parts count from 1"};
+  bool all = true;
+  for (std::size_t i = 0; i < of.length.size(); ++i) {
+    const bool curved = of.has_curve(i), several = of.stiffness.size() > 1;
+    all = all && curved;
+    if (!curved && !(Line::of_part(of.stiffness, i) > 0.0))
+      return Fault{"stiffness", "part " + std::to_string(i + 1) +
+                                    " needs a stiffness above 0, or the curve ('curve_parts')"};
+    if (curved && several && of.stiffness[i] != 0.0)
+      return Fault{"stiffness",
+                   "part " + std::to_string(i + 1) + " has a curve: write 0 as its stiffness"};
+  }
+  if (all && !of.stiffness.empty())
+    return Fault{"stiffness", "the curve gives the tension of all parts: leave out 'stiffness'"};
+  return {};
+}
 
 /// Checks lists with one number, or one for each part, or none.
 std::optional<Fault> fault_of_parts(const Line& of) {
@@ -49,8 +89,10 @@ std::optional<Fault> fault_of_parts(const Line& of) {
   for (const auto& [key, values] : all)
     if (values->size() > 1 && values->size() != of.length.size())
       return Fault{key, "'" + key + "' takes one number, or as many as parts in 'length'"};
-  if (of.mass.empty() || of.stiffness.empty())
-    return Fault{of.mass.empty() ? "mass" : "stiffness", "a line needs one number at least"};
+  if (of.mass.empty())
+    return Fault{"mass", "a line needs one number at least"};
+  if (std::optional<Fault> wrong = fault_of_curve(of))
+    return wrong;
   for (const double n : of.segments)
     if (n != std::floor(n))
       return Fault{"segments", "a part has a whole number of segments"};
@@ -147,7 +189,17 @@ Fields<Line> Line::fields() {
        "Diameters D of cylinders of the same volume; 0, the default: no buoyancy, no drag and no "
        "added mass.",
        false, at_least(0)},
-      {"stiffness", &L::stiffness, "N", "Axial stiffnesses EA of the parts.", true, more_than(0)},
+      {"stiffness", &L::stiffness, "N",
+       "Axial stiffnesses EA of the parts; 0 for a part with the curve.", false, at_least(0)},
+      {"curve_strain", &L::curve_strain, "-",
+       "In place of `stiffness`: strains, ascending from 0, of `curve_tension`.", false,
+       at_least(0)},
+      {"curve_tension", &L::curve_tension, "N",
+       "Tensions at these strains, ascending from 0; between them a smooth ascending curve, beyond "
+       "the last one straight on.",
+       false, at_least(0)},
+      {"curve_parts", &L::curve_parts, "-", "Parts with the curve, counted from 1; default: all.",
+       false, at_least(1)},
       {"damping", &L::damping, "N s", "Axial dampings C: tension C strain'.", false, at_least(0)},
       {"damping_ratio", &L::damping_ratio, "-",
        "In place of `damping`, C = ratio l sqrt(EA m): part of the critical damping of a segment.",

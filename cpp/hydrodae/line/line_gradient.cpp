@@ -54,7 +54,7 @@ void add_segments(const LineView<double>& at, LineBlocks& K) {
     const double c = seg.damping / seg.length;
     const Vector3 turned = P * (at.velocity(k + 1) - at.velocity(k)) / p.length;
     const Vector3 T_d =
-        (seg.stiffness * s.slope + c * p.rate * damped.curvature) / seg.length * p.e +
+        (seg.stiffness * at.pulled(k, s).slope + c * p.rate * damped.curvature) / seg.length * p.e +
         c * damped.slope * turned;
     const Matrix3 B = p.e * T_d.transpose() + p.tension / p.length * P,
                   D = c * damped.slope * p.e * p.e.transpose();

@@ -1,6 +1,7 @@
 #include "hydrodae/line/line_list.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -51,6 +52,25 @@ LinePowers line_powers(const LineView<double>& at, const sea::WaveField& sea, do
   return out;
 }
 
+/// Integral of tension over EA by the strain [-]; with a curve by Gauss's rule over the bend of s,
+/// where it is a polynomial of degree 12 at most, and by the area of the curve beyond.
+double strain_energy(const LineSegment& seg, double strain) {
+  if (!seg.curve)
+    return plus_integral(strain, seg.slack);
+  constexpr std::array<double, 3> places = {0.238619186083197, 0.661209386466265,
+                                            0.932469514203152},
+                                  weights = {0.467913934572691, 0.360761573048139,
+                                             0.171324492379170};
+  const double half = 0.5 * (std::min(strain, seg.slack) + seg.slack);
+  double out = 0.0;
+  for (std::size_t i = 0; half > 0.0 && i < places.size(); ++i)
+    for (const double side : {-1.0, 1.0}) {
+      const double there = half * (1.0 + side * places[i]) - seg.slack;
+      out += half * weights[i] * (*seg.curve)(plus<double>(there, seg.slack).value);
+    }
+  return strain > seg.slack ? out + seg.curve->area(strain) - seg.curve->area(seg.slack) : out;
+}
+
 double line_energy(const LineView<double>& at) {
   const LineModel& m = at.m;
   double out = 0.0;
@@ -59,8 +79,7 @@ double line_energy(const LineView<double>& at) {
     const LineSegment& seg = m.segments[static_cast<std::size_t>(k)];
     const Vector3 d = at.place(k + 1) - at.place(k), e = d.normalized();
     if (k != at.parted)
-      out += seg.stiffness * seg.length *
-             plus_integral((d.norm() - seg.length) / seg.length, seg.slack);
+      out += seg.stiffness * seg.length * strain_energy(seg, (d.norm() - seg.length) / seg.length);
     if (k > 0)
       out += at.bending(k) * (1.0 - before.dot(e));
     before = e;

@@ -14,19 +14,22 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "hydrodae/element/surroundings.h"
+#include "hydrodae/math/curve.h"
 #include "hydrodae/water/morison.h"
 
 namespace hydrodae::line {
 
 struct LineSegment {
   double length = 0.0;    ///< unstretched length [m]
-  double stiffness = 0.0; ///< EA [N]
+  double stiffness = 0.0; ///< EA [N]; with a curve: secant at its last point
   double damping = 0.0;   ///< C [N s]
   double slack = 0.0;     ///< half the width of strain in which s bends [-]
   double strength = std::numeric_limits<double>::infinity(); ///< breaking load [N]
+  std::shared_ptr<const Curve> curve; ///< tension over EA by s [-]; null: s itself
 };
 
 struct LineNode {
@@ -103,6 +106,13 @@ template <class S> struct LineView {
     const LineSegment& seg = m.segments[static_cast<std::size_t>(k)];
     return plus<S>((length - S(seg.length)) / S(seg.length), seg.slack);
   }
+  /// Tension over EA of segment k at s of its strain; its slope is that over the strain.
+  Plus<S> pulled(int k, const Plus<S>& s) const {
+    const Curve* curve = m.segments[static_cast<std::size_t>(k)].curve.get();
+    if (!curve)
+      return s;
+    return {(*curve)(s.value), curve->slope(s.value) * s.slope, S(0)};
+  }
   /// Factor of the damping of segment k, from its s.
   Plus<S> damped(int k, const Plus<S>& s) const {
     return m.damps_slack && k != parted ? Plus<S>{s.value, S(1), S(0)} : s;
@@ -150,8 +160,8 @@ template <class S> SegmentPull<S> segment_pull(const LineView<S>& at, int k) {
   out.e = d / out.length;
   out.rate = out.e.cwiseProduct(at.velocity(k + 1) - at.velocity(k)).sum();
   const Plus<S> s = at.stretch(k, out.length);
-  out.tension =
-      S(seg.stiffness) * s.value + S(seg.damping / seg.length) * out.rate * at.damped(k, s).slope;
+  out.tension = S(seg.stiffness) * at.pulled(k, s).value +
+                S(seg.damping / seg.length) * out.rate * at.damped(k, s).slope;
   return out;
 }
 

@@ -83,7 +83,7 @@ HYDRODAE_PART void spread(const LineView<S>& at, const Triples<S>& x, const Trip
 }
 
 /// Computes spans and pulls of the segments, rows 1 .. N.
-template <bool damps_slack, class S>
+template <bool damps_slack, bool curved, class S>
 HYDRODAE_PART void pull_segments(const LineTable& table, int n, LineArrays<S>& arrays) {
   using std::sqrt;
   const Triples<S> x = triples(arrays, at_::place), v = triples(arrays, at_::velocity),
@@ -101,7 +101,11 @@ HYDRODAE_PART void pull_segments(const LineTable& table, int n, LineArrays<S>& a
     const S rate = per_l * dot(d, v[k + 1] - v[k]);
     const Plus<S> s = plus<S>((l - S(length[k])) * S(per_length[k]), slack[k]);
     const S by = damps_slack ? S(1) : s.slope;
-    const S tension = S(stiffness[k]) * s.value + S(damping[k]) * rate * by;
+    S pulled = s.value;
+    if constexpr (curved)
+      if (const Curve* curve = table.curves[static_cast<std::size_t>(k)].get())
+        pulled = (*curve)(pulled);
+    const S tension = S(stiffness[k]) * pulled + S(damping[k]) * rate * by;
     span.put(k + 1, d);
     pull.put(k + 1, (tension * per_l) * d);
     inverse[k + 1] = per_l;
@@ -276,10 +280,13 @@ HYDRODAE_PART void evaluate(const LineTable& table, const LineView<S>& at,
                    a = triples(arrays, at_::acceleration);
   S* mass = arrays.column(at_::own_mass);
   spread(at, x, v);
+  const bool curved = !table.curves.empty();
   if (m.damps_slack)
-    pull_segments<true>(table, n, arrays);
+    curved ? pull_segments<true, true>(table, n, arrays)
+           : pull_segments<true, false>(table, n, arrays);
   else
-    pull_segments<false>(table, n, arrays);
+    curved ? pull_segments<false, true>(table, n, arrays)
+           : pull_segments<false, false>(table, n, arrays);
   part(at, pull, triples(arrays, at_::span));
   const double *weight = table.nodes.col(node::weight).data(),
                *own = table.nodes.col(node::mass).data();
@@ -357,6 +364,10 @@ LineTable::LineTable(const LineModel& m)
     const LineSegment& s = m.segments[static_cast<std::size_t>(k)];
     segments.row(k) << s.length, 1.0 / s.length, s.stiffness, s.damping / s.length, s.slack;
   }
+  if (std::any_of(m.segments.begin(), m.segments.end(),
+                  [](const LineSegment& s) { return s.curve != nullptr; }))
+    for (const LineSegment& s : m.segments)
+      curves.push_back(s.curve);
   bed_top = m.bed;
   for (int i = 0; i <= m.n(); ++i) {
     const LineNode& q = m.nodes[static_cast<std::size_t>(i)];
