@@ -27,7 +27,7 @@ from hydrodae.wecsim.links import Links
 from hydrodae.wecsim.m_file import read_input
 from hydrodae.wecsim.modes import Modes, read_modes
 from hydrodae.wecsim.moorings import add_mooring
-from hydrodae.wecsim.objects import InputFile
+from hydrodae.wecsim.objects import InputFile, Item
 from hydrodae.wecsim.remarks import Remarks
 from hydrodae.wecsim.sea import add_solver, add_waves, radiation_of
 from hydrodae.wecsim.sea_states import POWER_MATRIX, write_power_matrix
@@ -202,10 +202,7 @@ def _database(
         if item is None or item.whole("nonHydro") or not stated:
             continue
         if isinstance(stated, list):
-            stated = stated[0]
-            remark = f"{item.title}: variable hydrodynamics; the first database is taken, and "
-            remark += "[[pose_table]] blends those of several poses (docs/cases.md)"
-            read.remarks.left_out(read.place(item.line), remark)
+            stated = _initial(item, stated, read)
         wet[number] = name
         sources.setdefault(str(stated), []).append(number)
     simu = read.get("simu")
@@ -254,6 +251,26 @@ def _database(
     if frequency is not None and kind == "constant":
         keys["frequency"] = frequency
     return database, keys, why, modes
+
+
+def _initial(item: Item, files: list[Any], read: InputFile) -> Any:
+    """Database of a body with several that it starts with, as its variableHydro states it."""
+    field = "variableHydro.hydroForceIndexInitial"
+    index, place = item.whole(field, 1), read.place(item.line)
+    if not 1 <= index <= len(files):
+        raise CaseError(
+            f"{read.path.name}:{item.line_of(field)}: {item.title}.{field} is {index}, but the "
+            f"body has {len(files)} databases"
+        )
+    if item.whole("variableHydro.option") and len(files) > 1:
+        remark = f"{item.title}: variable hydrodynamics; {files[index - 1]}, with which it starts, "
+        remark += "is taken. A signal of Simulink chooses between the files in the run; where that "
+        remark += "follows a pose, [[pose_table]] blends them (docs/cases.md)"
+        read.remarks.left_out(place, remark)
+    elif len(files) > 1:
+        text = f"{item.title}: variableHydro.option is 0: {files[index - 1]} alone is taken, as "
+        read.remarks.assumed(place, text + "in WEC-Sim")
+    return files[index - 1]
 
 
 def _write(
