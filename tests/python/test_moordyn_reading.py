@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Literal
 
 import pytest
 from tests.python.moordyn_decks import RM3, tables, written
@@ -153,7 +154,9 @@ def test_bodies_of_the_file_need_those_of_the_case_unless_there_is_one(tmp_path:
 
 
 @pytest.mark.parametrize("type", ["line", "catenary"])
-def test_notes_name_the_line_of_the_file_that_they_are_about(tmp_path: Path, type: str) -> None:
+def test_notes_name_the_line_of_the_file_that_they_are_about(
+    tmp_path: Path, type: Literal["line", "catenary"]
+) -> None:
     deck = RM3.replace("1000.0    rho", "0.7       FrictionCoefficient\n1000.0    rho")
     deck = deck.replace("RM3 with", "A line more\nRM3 with")
     file = written(tmp_path, deck)
