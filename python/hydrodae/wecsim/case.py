@@ -122,12 +122,12 @@ def convert(
                 return text
 
             write_study(conditions, read, str(text), again, target)
-        elif not functions.laws:
-            write_power_matrix(str(text), target)
+        else:
+            write_power_matrix(str(text), target, FUNCTIONS if functions.laws else "")
         _unused(read)
         if functions.laws and (target / STUDY).is_file():
-            remark = f"{STUDY}: `hydrodae sweep` takes no {FUNCTIONS}; run the conditions by --set"
-            read.remarks.left_out(read.path.name, remark)
+            remark = f"{STUDY}: the laws are in {FUNCTIONS}; sweep it with --functions {FUNCTIONS}"
+            read.remarks.assumed(read.path.name, remark)
         if accept is not None:
             read.remarks.check(accept)
         text.head("missing", [str(remark) for remark in read.remarks.of("left out")])
