@@ -24,6 +24,7 @@ from hydrodae.wecsim.drift import add_drift
 from hydrodae.wecsim.functions import FUNCTIONS, FunctionFile
 from hydrodae.wecsim.hydro import find_source, read_database, with_radiation
 from hydrodae.wecsim.links import Links
+from hydrodae.wecsim.mdl import read_mdl
 from hydrodae.wecsim.m_file import read_input
 from hydrodae.wecsim.modes import Modes, read_modes
 from hydrodae.wecsim.moorings import add_mooring
@@ -37,6 +38,8 @@ from hydrodae.wecsim.text import CaseText
 from hydrodae.wecsim.topology import Topology, find_topology
 
 INPUT = "wecSimInputFile.m"
+#: Readers of models by the ending of their files.
+MODELS = {".slx": read_slx, ".mdl": read_mdl}
 #: Coordinates of the database that move with each motion of a body.
 _KEEP = {"rigid": "all", "planar": "planar", "heave": "heave", "yaw": "yaw"}
 #: What these become by hand.
@@ -99,7 +102,8 @@ def convert(
     if target.exists() and (not target.is_dir() or any(target.iterdir())):
         raise CaseError(f"{target}: is there already; name a new or empty folder")
     read = read_input(_input_file(Path(source)), define)
-    model = read_slx(_model_file(read))
+    file = _model_file(read)
+    model = MODELS.get(file.suffix.lower(), read_slx)(file)
     topology = find_topology(model, read)
     conditions = find_conditions(read)
     database, radiation, why, modes = _database(read, topology)
@@ -181,11 +185,14 @@ def _model_file(read: InputFile) -> Path:
     stated = "" if simu is None else simu.text("simMechanicsFile")
     if stated.strip(".") not in ("", "slx", "*.slx"):
         path = folder / stated.replace("\\", "/")
-        return path if path.suffix else path.with_suffix(".slx")
-    found = sorted(folder.glob("*.slx"))
+        named = [path] if path.suffix else [path.with_suffix(ending) for ending in MODELS]
+        return next((file for file in named if file.is_file()), named[0])
+    found = [file for ending in MODELS for file in sorted(folder.glob(f"*{ending}"))]
     if len(found) != 1:
         names = ", ".join(path.name for path in found) or "none"
-        raise CaseError(f"{read.path}: simu.simMechanicsFile is not set; .slx beside it: {names}")
+        raise CaseError(
+            f"{read.path}: simu.simMechanicsFile is not set; .slx and .mdl beside it: {names}"
+        )
     read.remarks.assumed(read.path.name, f"model {found[0].name}, the only one beside it")
     return found[0]
 
