@@ -19,7 +19,8 @@ class Imported:
     bodies, joints, forces, morison : list of dict
         Keys of each `[[body]]`, `[[joint]]`, `[[force]]` and `[[morison]]`.
     notes : list of str
-        What the tables do not hold of the file, and what was assumed.
+        What the tables do not hold of the file, and what was assumed, each below the file and the
+        line that it is about.
     """
 
     source: str
@@ -28,6 +29,10 @@ class Imported:
     forces: list[dict[str, Any]] = field(default_factory=list)
     morison: list[dict[str, Any]] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
+
+    def note(self, text: str, line: int | None = None) -> None:
+        """Add a note about a line of the file, or about all of it."""
+        self.notes.append(f"{self.source}{'' if line is None else f':{line}'}: {text}")
 
     def __str__(self) -> str:
         return self.to_toml()

@@ -45,6 +45,7 @@ class Type:
     mass: float  #: [kg/m]
     stiffness: float  #: EA [N]
     others: dict[str, str]  #: by the names of version 2
+    row: Row
 
 
 @dataclass(frozen=True)
@@ -121,7 +122,8 @@ class Deck:
     rods: dict[str, Rod] = field(default_factory=dict)
     options: dict[str, str] = field(default_factory=dict)  #: by lower-case key
     outputs: list[str] = field(default_factory=list)
-    unread: dict[str, int] = field(default_factory=dict)  #: other sections: number of lines
+    unread: dict[str, list[Row]] = field(default_factory=dict)  #: rows of other sections
+    rows: dict[str, Row] = field(default_factory=dict)  #: of options; of the first "outputs"
     notes: list[str] = field(default_factory=list)  #: on how it was read
 
     def option(self, key: str, default: float) -> float:
@@ -179,11 +181,13 @@ def read_deck(path: str | os.PathLike[str]) -> Deck:
     deck.bodies = _by_id((b.id, b.row, b) for b in map(_body, bodies.rows))
     for row in sections.get("options", Section("")).rows:
         key, value = _option(row)
-        deck.options[key] = value
+        deck.options[key], deck.rows[key] = value, row
     outputs = [word for row in sections.get("outputs", Section("")).rows for word in row.words]
     deck.outputs = [word for word in outputs if word.upper() != "END"]
     read = ("types", "points", "lines", "bodies", "rod types", "rods", "options", "outputs")
-    deck.unread = {n: len(s.rows) for n, s in sections.items() if n not in read and s.rows}
+    if deck.outputs:
+        deck.rows["outputs"] = sections["outputs"].rows[0]
+    deck.unread = {n: s.rows for n, s in sections.items() if n not in read and s.rows}
     if deck.version > 1:
         deck.notes = _other_order(sections)
     return deck
@@ -253,6 +257,7 @@ def _type(row: Row) -> Type:
         row.value("mass", "the mass per length"),
         number(row, static, "the stiffness EA"),
         further,
+        row,
     )
 
 

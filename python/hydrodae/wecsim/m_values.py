@@ -104,6 +104,12 @@ def plain(value: Any) -> Any:
     return value
 
 
+class Handle(str):
+    """A function that an argument names: ``@num2str``."""
+
+    __slots__ = ()
+
+
 class Expression:
     """Evaluates tokens of one expression.
 
@@ -113,12 +119,17 @@ class Expression:
     look_up : function
         Value of a name with its indices and fields, given as tokens read so far:
         ``look_up(name, path)``; raises NotEvaluated where there is none.
+    call : function
+        Value of a function by its name and its arguments; raises NotEvaluated where it is unknown.
     """
 
     def __init__(
-        self, tokens: tuple[Token, ...], look_up: Callable[[str, tuple[str, ...]], Any]
+        self,
+        tokens: tuple[Token, ...],
+        look_up: Callable[[str, tuple[str, ...]], Any],
+        call: Callable[[str, list[Any]], Any],
     ) -> None:
-        self.tokens, self.look_up, self.at = tokens, look_up, 0
+        self.tokens, self.look_up, self.call, self.at = tokens, look_up, call, 0
         self.rows = 0  # depth of brackets in which white space separates
 
     def value(self) -> Any:
@@ -209,6 +220,9 @@ class Expression:
             self.rows = rows
             self._expect(")")
             return value
+        if token.text == "@" and (named := self._peek()) is not None and named.kind == "name":
+            self.at += 1
+            return Handle(named.text)
         if token.text in "[{":
             return self._bracket("]" if token.text == "[" else "}")
         raise NotEvaluated(f"{token.text!r} is not understood here")
@@ -246,7 +260,7 @@ class Expression:
             if name in _CONSTANTS and not path:
                 return _CONSTANTS[name]
             if len(path) <= 1 and (arguments is not None) == bool(path):
-                return _function(name, arguments or [])
+                return self.call(name, arguments or [])
             raise
 
     def _is_field(self) -> bool:
@@ -344,8 +358,14 @@ def _square(sizes: list[Any]) -> tuple[int, int]:
     return max(int(shape[0]), 0), max(int(shape[-1]), 0)
 
 
-def _function(name: str, values: list[Any]) -> Any:
-    """Value of a function of MATLAB that is known here."""
+def function_value(name: str, values: list[Any]) -> Any:
+    """Value of a function of numbers or text that is known here.
+
+    Raises
+    ------
+    NotEvaluated
+        It is not known, or its arguments are others than it takes here.
+    """
     if name in ("zeros", "ones") and len(values) <= 2:
         return np.full(_square(values), float(name == "ones"))
     if name == "eye" and len(values) <= 2:
