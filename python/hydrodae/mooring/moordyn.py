@@ -182,6 +182,12 @@ class _Conversion:
     def _line_at_rest(
         self, chain: Chain, label: str, a: tuple[str, Array], b: tuple[str, Array]
     ) -> None:
+        for line in chain.lines:
+            if line.type.curve:
+                raise line.row.fail(
+                    f"{label}: a line at rest has one stiffness, and type {line.type.name!r} has a "
+                    "table; import it as a dynamic line, --type line, or write a number as EA"
+                )
         on_bed = abs(a[1][2] + self.depth) <= 1e-3 * self.depth
         lies = self.depth > 0.0 and a[0] == "ground" and on_bed
         table: dict[str, Any] = {
