@@ -24,8 +24,8 @@ from hydrodae.wecsim.drift import add_drift
 from hydrodae.wecsim.functions import FUNCTIONS, FunctionFile
 from hydrodae.wecsim.hydro import find_source, read_database, with_radiation
 from hydrodae.wecsim.links import Links
-from hydrodae.wecsim.mdl import read_mdl
 from hydrodae.wecsim.m_file import read_input
+from hydrodae.wecsim.mdl import read_mdl
 from hydrodae.wecsim.modes import Modes, read_modes
 from hydrodae.wecsim.moorings import add_mooring
 from hydrodae.wecsim.objects import InputFile, Item
