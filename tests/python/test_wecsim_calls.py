@@ -54,6 +54,37 @@ def test_functions_that_build_the_names_of_databases(tmp_path: Path) -> None:
     assert defined.variables["start"].value == 2.0
 
 
+LOGICAL = """
+a = exist('x','var') && isequal(x, [1 2; 3 4]) && -x(3) > unknown(2).field;
+b = ~exist('x','var') || x.part == 'one' || [1:x, @x];
+if exist('x','var') && x > 2
+    c = 1;
+else
+    c = 2;
+end
+d = 1 || 0 && x;
+e = 0 && 1 | 1;
+f = 1 && isequal(2, 2);
+g = 0 || 1 & 0;
+h = (0 && x) == 0;
+k = [0 && 0/0, 3];
+"""
+
+
+def test_logical_operators_evaluate_what_decides(tmp_path: Path) -> None:
+    """As MATLAB: && and || leave out their right operands; | binds before &&, & before |."""
+    (tmp_path / "wecSimInputFile.m").write_text(LOGICAL)
+    read = read_input(tmp_path / "wecSimInputFile.m")
+    assert not read.remarks.items
+    found = {name: entry.value for name, entry in read.variables.items()}
+    np.testing.assert_array_equal(np.ravel(found.pop("k")), [0.0, 3.0])
+    expected = {"a": 0, "b": 1, "c": 2, "d": 1, "e": 0, "f": 1, "g": 0, "h": 1}
+    assert found == expected
+    with (tmp_path / "wecSimInputFile.m").open("a") as file:
+        file.write("m = 1 && x;\n")
+    assert [str(item) for item in read_input(tmp_path / "wecSimInputFile.m").remarks.items]
+
+
 def test_a_function_that_is_not_understood_has_no_value(tmp_path: Path) -> None:
     (tmp_path / "wecSimInputFile.m").write_text(
         "directions = 1:3; called = nearest(2, directions);"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from hydrodae.case import Case
@@ -79,7 +80,8 @@ def sweep(
     plan = read_study(study)
     if functions is not None:
         check_runs(functions, plan.rungs, plan.path)
-        plan = replace(plan, functions=function_file(functions))
+        seen = functions if scheduler is None else Path(functions).resolve()  # by the workers too
+        plan = replace(plan, functions=function_file(seen))
     case = open_case(plan.case, set or {}, plan.rungs)
     target = claim(output)
     _check_keys(plan, case)
