@@ -103,8 +103,12 @@ LineModel line_model(const Line& of, const element::Surroundings& of_case, doubl
   m.free_end = of.free_end;
   m.bends = (of.shape() & 2) != 0;
   const double depth = of.seabed_depth.value_or(around.water.depth);
-  if (of.seabed && std::isfinite(depth))
+  if (of.seabed && around.seabed) {
+    m.surface = around.seabed;
+    m.bed = m.surface->top();
+  } else if (of.seabed && std::isfinite(depth)) {
     m.bed = -depth;
+  }
   m.nodes.emplace_back();
   for (std::size_t i = 0; i < of.length.size(); ++i) {
     const Part p = part_of(of, i, i == 0 ? first : of.length[i]);

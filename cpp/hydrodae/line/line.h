@@ -14,7 +14,7 @@
 namespace hydrodae::line {
 
 /// Dynamic mooring line: lumped masses at the ends of elastic segments, with weight, buoyancy, drag
-/// and inertia of the water, bending, and a flat seabed (equations in line_model.h). It has one or
+/// and inertia of the water, bending, and a seabed (equations in line_model.h). It has one or
 /// more parts, with clumps and buoys between segments.
 struct Line {
   static constexpr std::string_view type = "line";
