@@ -40,7 +40,7 @@ from hydrodae.errors import CaseError
         (("(kg/m)   (N)", "(kg/m)   (kN)"), r"lines.txt:6: LINE TYPES: column EA is in \(kN\)"),
         (("WtrDpth", "WtrDpht"), r"unknown option 'WtrDpht'.* is it wtrdpth\?"),
         (("70        WtrDpth", "WtrDpth   70"), r"unknown option '70'; a value comes first"),
-        (("70        WtrDpth", "bed.txt   WtrDpth"), r"the seabed of 'bed.txt' is not flat"),
+        (("70        WtrDpth", "bed.txt   WtrDpth"), r"the seabed 'bed.txt' cannot be read"),
         (("2    Free ", "1    Free "), r"lines.txt:15: '1' is there twice"),
         (
             ("240        15", "240        1.5"),

@@ -27,11 +27,8 @@ Part part_of(const Line& of, std::size_t i, double length) {
     return Line::of_part(values, i, otherwise);
   };
   const double l = length / get(of.segments, 20.0), m = get(of.mass);
-  double EA = get(of.stiffness), softest = EA;
-  if (of.has_curve(i)) {
-    EA = of.curve_tension.back() / of.curve_strain.back();
-    softest = of.curve_tension[1] / of.curve_strain[1];
-  }
+  const double EA = of.stiffness_of(i),
+               softest = of.has_curve(i) ? of.curve_tension[1] / of.curve_strain[1] : EA;
   const double C =
       of.damping_ratio.empty() ? get(of.damping) : get(of.damping_ratio) * l * std::sqrt(EA * m);
   return {l,       m, get(of.diameter),          EA,
@@ -108,8 +105,12 @@ LineModel line_model(const Line& of, const element::Surroundings& of_case, doubl
   m.free_end = of.free_end;
   m.bends = (of.shape() & 2) != 0;
   const double depth = of.seabed_depth.value_or(around.water.depth);
-  if (of.seabed && std::isfinite(depth))
+  if (of.seabed && around.seabed) {
+    m.surface = around.seabed;
+    m.bed = m.surface->top();
+  } else if (of.seabed && std::isfinite(depth)) {
     m.bed = -depth;
+  }
   m.nodes.emplace_back();
   std::shared_ptr<const Curve> curve;
   if (!of.curve_strain.empty()) {

@@ -19,6 +19,10 @@ bool Line::has_curve(std::size_t part) const {
                                            static_cast<double>(part + 1)) != curve_parts.end());
 }
 
+double Line::stiffness_of(std::size_t part) const {
+  return has_curve(part) ? curve_tension.back() / curve_strain.back() : of_part(stiffness, part);
+}
+
 int Line::n_segments() const {
   double sum = 0.0;
   for (std::size_t i = 0; i < length.size(); ++i)
@@ -157,15 +161,20 @@ std::optional<Fault> Line::fault(const element::Surroundings& around) const {
       (needs_water(diameter) || needs_water(attachment_volume)))
     return Fault{"diameter", "a line with a volume needs the density of the water: water_density "
                              "[kg/m3] of the line or in [environment], or a hydrodynamic database"};
-  const double bed = -seabed_depth.value_or(around.water.depth);
+  if (seabed && seabed_depth && around.seabed)
+    return Fault{"seabed_depth", "the case has a [seabed] with depths of its own: leave one out"};
   if (seabed && seabed_depth && *seabed_depth > 1.001 * around.water.depth)
     return Fault{"seabed_depth",
                  "the water is only " + number_text(around.water.depth) + " m deep"};
-  if (seabed && std::isfinite(bed))
-    for (const auto& [body, point] : ends())
-      if (point[2] < bed - 1e-3 * std::abs(bed))
-        return Fault{&point == &point_a ? "point_a" : "point_b",
-                     "this end is below the seabed, which is at z = " + number_text(bed) + " m"};
+  const auto all = ends();
+  for (std::size_t k = 0; k < all.size() && seabed; ++k) {
+    const Vector3& point = all[k].second;
+    const double bed = around.seabed ? around.seabed->at(point[0], point[1]).value
+                                     : -seabed_depth.value_or(around.water.depth);
+    if (point[2] < bed - 1e-3 * std::abs(bed))
+      return Fault{k == 0 ? "point_a" : "point_b",
+                   "this end is below the seabed, which is at z = " + number_text(bed) + " m"};
+  }
   return {};
 }
 

@@ -14,7 +14,7 @@
 namespace hydrodae::line {
 
 /// Dynamic mooring line: lumped masses at the ends of elastic segments, with weight, buoyancy, drag
-/// and inertia of the water, bending, and a flat seabed (equations in line_model.h). It has one or
+/// and inertia of the water, bending, and a seabed (equations in line_model.h). It has one or
 /// more parts, with clumps and buoys between segments.
 struct Line {
   static constexpr std::string_view type = "line";
@@ -54,6 +54,8 @@ struct Line {
 
   /// Returns whether the curve is that of part `part`, counted from 0.
   bool has_curve(std::size_t part) const;
+  /// EA of part `part` [N]; of the curve the secant at its last point.
+  double stiffness_of(std::size_t part) const;
 
   /// Index of the list: lines in one list have the same number of segments and kinds of entries,
   /// and all break or none does.

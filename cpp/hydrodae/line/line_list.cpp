@@ -44,10 +44,9 @@ LinePowers line_powers(const LineView<double>& at, const sea::WaveField& sea, do
       f[2] -= node.lift + node.body_lift;
       out.water -= f.dot(v);
     }
-    Vector3 f = bed_force<double>(m, node, x, v);
-    f[2] -=
-        node.bed_stiffness * plus<double>(m.bed + node.axis_height - x[2], node.bed_width).value;
-    out.seabed -= f.dot(v);
+    const BedContact<double> bed = bed_contact<double>(m, node, x);
+    const Vector3 elastic = node.bed_stiffness * bed.s.value * bed.up;
+    out.seabed -= (bed_force<double>(m, node, bed, v) - elastic).dot(v);
   }
   return out;
 }
@@ -86,10 +85,12 @@ double line_energy(const LineView<double>& at) {
   }
   for (int i = 0; i <= m.n(); ++i) {
     const LineNode& node = m.nodes[static_cast<std::size_t>(i)];
-    const double z = at.place(i)[2];
+    const Vector3 x = at.place(i);
+    const double z = x[2];
     out += (node.mass * m.gravity - node.lift - node.body_lift) * z;
     if (node.bed_stiffness > 0.0)
-      out += node.bed_stiffness * plus_integral(m.bed + node.axis_height - z, node.bed_width);
+      out += node.bed_stiffness *
+             plus_integral(m.bed_at<double>(x).value + node.axis_height - z, node.bed_width);
     if (!m.is_end(i))
       out += 0.5 * node.mass * at.velocity(i).squaredNorm();
   }

@@ -57,6 +57,9 @@ enum {
   wet,
   own_mass,
   inverse_length,
+  bed,
+  bed_x,
+  bed_y,
   n
 };
 }
@@ -182,6 +185,44 @@ HYDRODAE_PART void lie(const LineTable& table, int n, LineArrays<S>& arrays) {
   }
 }
 
+/// Adds the forces of a bed that is not flat.
+template <bool damps_up, class S>
+HYDRODAE_PART void lie_on_slopes(const LineTable& table, const LineModel& m,
+                                 LineArrays<S>& arrays) {
+  using std::sqrt;
+  const Triples<S> x = triples(arrays, at_::place), v = triples(arrays, at_::velocity),
+                   force = triples(arrays, at_::force);
+  S *bed = arrays.column(at_::bed), *bed_x = arrays.column(at_::bed_x),
+    *bed_y = arrays.column(at_::bed_y);
+  const double *height = table.nodes.col(node::bed_height).data(),
+               *width = table.nodes.col(node::bed_width).data(),
+               *stiffness = table.nodes.col(node::bed_stiffness).data(),
+               *damping = table.nodes.col(node::bed_damping).data(),
+               *friction = table.nodes.col(node::friction).data();
+  const int n = m.n();
+  for (int i = 0; i <= n; ++i) {
+    const Triple<S> at = x[i];
+    const SurfacePoint<S> here = at.z < S(table.bed_top)
+                                     ? m.surface->template at<S>(at.x, at.y)
+                                     : SurfacePoint<S>{S(m.bed), S(0), S(0), S(0), S(0), S(0)};
+    bed[i] = here.value - S(m.bed);
+    bed_x[i] = here.x;
+    bed_y[i] = here.y;
+  }
+#pragma GCC ivdep
+  for (int i = 0; i <= n; ++i) {
+    const Triple<S> g = {-bed_x[i], -bed_y[i], S(1)};
+    const S into = -dot(g, v[i]), square = dot(g, g);
+    const Triple<S> slip = v[i] + (into / square) * g;
+    const Plus<S> s = plus<S>((S(height[i]) + bed[i]) - x.z[i], width[i]);
+    const S down = down_rate<damps_up, S>(into).value;
+    const S drag = S(-friction[i] * stiffness[i]) * s.value *
+                   sqrt(square / (dot(slip, slip) + S(slip_speed * slip_speed)));
+    const S push = S(stiffness[i]) * s.value + S(damping[i]) * s.slope * down;
+    force.put(i, force[i] + (push * g + drag * slip));
+  }
+}
+
 /// Computes the motion of the water at the nodes, the surface above them, and the wet parts.
 template <class S>
 HYDRODAE_PART void find_water(const LineTable& table, const LineView<S>& at,
@@ -302,7 +343,10 @@ HYDRODAE_PART void evaluate(const LineTable& table, const LineView<S>& at,
   for (int i = 1; i <= n; ++i)
     low = x.z[i] < low ? x.z[i] : low;
   if (low < S(table.bed_top)) {
-    if (m.bed_damps_up)
+    if (m.surface)
+      m.bed_damps_up ? lie_on_slopes<true>(table, m, arrays)
+                     : lie_on_slopes<false>(table, m, arrays);
+    else if (m.bed_damps_up)
       lie<true>(table, n, arrays);
     else
       lie<false>(table, n, arrays);

@@ -16,6 +16,8 @@ class Imported:
     ----------
     source : str
         The file.
+    seabed : dict
+        Keys of `[seabed]`; empty: none.
     bodies, joints, forces, morison : list of dict
         Keys of each `[[body]]`, `[[joint]]`, `[[force]]` and `[[morison]]`.
     notes : list of str
@@ -24,6 +26,7 @@ class Imported:
     """
 
     source: str
+    seabed: dict[str, Any] = field(default_factory=dict)
     bodies: list[dict[str, Any]] = field(default_factory=list)
     joints: list[dict[str, Any]] = field(default_factory=list)
     forces: list[dict[str, Any]] = field(default_factory=list)
@@ -41,12 +44,13 @@ class Imported:
         """Return the tables as they stand in a case file, with the notes above them."""
         lines = [f"# Moorings of {self.source}", *(f"# - {note}" for note in self.notes)]
         for header, tables in (
-            ("body", self.bodies),
-            ("joint", self.joints),
-            ("force", self.forces),
-            ("morison", self.morison),
+            ("[seabed]", [self.seabed] if self.seabed else []),
+            ("[[body]]", self.bodies),
+            ("[[joint]]", self.joints),
+            ("[[force]]", self.forces),
+            ("[[morison]]", self.morison),
         ):
             for table in tables:
-                lines += ["", f"[[{header}]]"]
+                lines += ["", header]
                 lines += [f"{key} = {to_toml(value, key)}" for key, value in table.items()]
         return "\n".join(lines) + "\n"

@@ -17,9 +17,10 @@ from hydrodae.mooring.moordyn_deck import Deck, Line, Point, read_deck
 from hydrodae.mooring.moordyn_lines import CARRIED, is_zero, line_keys, lost_of
 from hydrodae.mooring.moordyn_places import COUPLED, Places, poses
 from hydrodae.mooring.moordyn_rigid import add_rigid_bodies, note_clamps
+from hydrodae.mooring.moordyn_seabed import SEABED_OPTIONS, seabed_of
 from hydrodae.support.arrays import Array
 
-_CARRIED = ("g", "rho", "wtrdpth")
+_CARRIED = ("g", "rho", *SEABED_OPTIONS)
 
 
 def read_moordyn(
@@ -60,8 +61,9 @@ def read_moordyn(
     ------
     CaseError
         The file cannot be read, or it has something without which its moorings would be others:
-        stiffness from a table, a seabed that is not flat, free bodies or rods at the surface, or
-        stiff lines that a rod clamps. A line at rest lies in a way that `catenary` does not know.
+        stiffness from a table, a seabed that is not flat below a `catenary`, free bodies or rods
+        at the surface, or stiff lines that a rod clamps. A line at rest lies in a way that
+        `catenary` does not know.
     """
     if type not in _DYNAMIC:
         raise CaseError(f"type: expected 'catenary' or 'line' instead of {type!r}")
@@ -102,7 +104,7 @@ class _Conversion:
                 f"weights in water of {deck.density:g} kg/m3 with g = {deck.gravity:g} m/s2; the "
                 "case sets its own in [environment]"
             )
-        if not self.depth:
+        if not self.depth and not self.out.seabed:
             note("no depth in the file, and no anchor: the seabed is that of the case")
         elif self.assumed_depth:
             note(
@@ -129,13 +131,18 @@ class _Conversion:
     def _depth(self) -> tuple[float, bool]:
         """Depth of the seabed, and whether it is that of the lowest anchor, as in MoorDyn."""
         deck = self.deck
-        for key in ("wtrdpth", "seafloorfile", "bathymetry", "bathymetryfile"):
-            text = deck.options.get(key, "0")
-            if not _is_number(text) or (key != "wtrdpth" and text != "0"):
+        if bed := seabed_of(deck):
+            if not self.dynamic:
                 raise CaseError(
-                    f"{deck.file}: the seabed of {text!r} is not flat, which is not carried over; "
-                    f"take that line out of the options, and write one depth [m] as WtrDpth"
+                    f"{deck.file}: the seabed is not flat, and a line at rest has a flat one; "
+                    "import it as a dynamic line, --type line, or write one depth [m] as WtrDpth "
+                    "in place of the file"
                 )
+            self.out.seabed = bed.table()
+            self.out.notes.append(
+                "seabed: smooth between the points of the file, in MoorDyn bilinear"
+            )
+            return 0.0, False
         depth = deck.option("wtrdpth", 0.0)
         fixed = [p.place[2] for p in deck.points.values() if p.attachment == "fixed"]
         lowest = -min(fixed, default=0.0)
@@ -177,6 +184,13 @@ class _Conversion:
             note(text, chain.ends[1].row.number)
         if table["segments"] != [line.segments for line in chain.lines]:
             note(f"{label}: two segments in place of one, the fewest that a line has", first)
+        if "curve_strain" in table:
+            note(
+                f"{label}: tension from a table, by a smooth curve through its points that goes on "
+                "with its last slope; MoorDyn goes straight from point to point, and holds the last "
+                "tension",
+                next(line.type.row.number for line in chain.lines if line.type.curve),
+            )
         self.out.forces.append(table)
 
     def _line_at_rest(
@@ -363,10 +377,3 @@ class _Conversion:
                 "(FAIRTEN), tension_anchor at end A (ANCHTEN)",
                 deck.rows["outputs"].number,
             )
-
-
-def _is_number(text: str) -> bool:
-    try:
-        return math.isfinite(float(text))
-    except ValueError:
-        return False
