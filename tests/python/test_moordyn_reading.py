@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
+from typing import Literal
 
 import pytest
 from tests.python.moordyn_decks import RM3, tables, written
@@ -38,7 +40,7 @@ from hydrodae.errors import CaseError
         (("(kg/m)   (N)", "(kg/m)   (kN)"), r"lines.txt:6: LINE TYPES: column EA is in \(kN\)"),
         (("WtrDpth", "WtrDpht"), r"unknown option 'WtrDpht'.* is it wtrdpth\?"),
         (("70        WtrDpth", "WtrDpth   70"), r"unknown option '70'; a value comes first"),
-        (("70        WtrDpth", "bed.txt   WtrDpth"), r"the seabed of 'bed.txt' is not flat"),
+        (("70        WtrDpth", "bed.txt   WtrDpth"), r"the seabed 'bed.txt' cannot be read"),
         (("2    Free ", "1    Free "), r"lines.txt:15: '1' is there twice"),
         (
             ("240        15", "240        1.5"),
@@ -149,3 +151,26 @@ def test_bodies_of_the_file_need_those_of_the_case_unless_there_is_one(tmp_path:
     deck.write_text(RM3.replace(row, row + row.replace("1 ", "2 ", 1)))
     with pytest.raises(CaseError, match=r"body 1: which body of the case.*--body 1=NAME"):
         hydrodae.mooring.read_moordyn(deck)
+
+
+@pytest.mark.parametrize("type", ["line", "catenary"])
+def test_notes_name_the_line_of_the_file_that_they_are_about(
+    tmp_path: Path, type: Literal["line", "catenary"]
+) -> None:
+    deck = RM3.replace("1000.0    rho", "0.7       FrictionCoefficient\n1000.0    rho")
+    deck = deck.replace("RM3 with", "A line more\nRM3 with")
+    file = written(tmp_path, deck)
+    rows = file.read_text().splitlines()
+    imported = hydrodae.mooring.read_moordyn(file, body="spar", type=type)
+    assert all(note.startswith(f"{file.name}:") for note in imported.notes)
+    placed = [re.match(r"[^:]+:(\d+): (.*)", note) for note in imported.notes]
+    found = [(rows[int(match[1]) - 1].split(), match[2]) for match in placed if match]
+    about = {"body": 0, "point": 0}
+    for words, text in found:
+        for kind in about:
+            if match := re.match(rf"{kind} (\w+)[: ]", text):
+                assert words[0] == match[1]
+                about[kind] += 1
+    assert about["body"] == 1
+    assert about["point"] == (0 if type == "line" else 3)
+    assert any(words == ["FairTen1"] and "outputs" in text for words, text in found)

@@ -72,9 +72,9 @@ ASKED = {
         r"lines.txt:6: line type 'chain'.*write the slope",
         ("SYROPE:syrope.dat|1.5e8|23", "1.5e8"),
     ),
-    "seabed from a file": (
+    "seabed from a file that is not there": (
         ("70        WtrDpth", "70 WtrDpth\nbed.txt SeafloorFile"),
-        r"'bed.txt' is not flat.*take that line out .* one depth \[m\] as WtrDpth",
+        r"'bed.txt' cannot be read: .*relative to this one, or one depth \[m\] as WtrDpth",
         ("\nbed.txt SeafloorFile", ""),
     ),
     "unknown column": (

@@ -359,6 +359,9 @@ def test_body_of_a_mooring_deck_is_where_the_input_file_says(
     ends = {line["body_a"]: line["point_a"], line["body_b"]: line["point_b"]}
     assert ends["spar_plate"] == pytest.approx([23.0, 0.0, -0.5])
     assert ends["ground"] == pytest.approx([90.0, 0.0, -50.0])
+    notes = [str(note) for note in converted.remarks.of("assumed") if "lines.txt" in note.place]
+    assert notes
+    assert {note.count("lines.txt") for note in notes} == {1}
 
 
 @pytest.mark.parametrize("wet", [True, False])

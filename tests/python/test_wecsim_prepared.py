@@ -30,7 +30,10 @@ UNKNOWN = (
 def test_what_is_not_converted_is_prepared(tmp_path: Path, capsys) -> None:
     """The case runs with a load of zero; head, terminal and summary name it."""
     source, case = tmp_path / "source", tmp_path / "case"
-    waves = WAVES + " waves.marker.location = [-5 0];"
+    waves = (
+        WAVES.replace("'regular'", "'irregular'")
+        + " waves.spectrumType = 'PM'; waves.marker.location = [-5 0];"
+    )
     write_one_body(source, waves, "pto(1).damping = 1e4;", controller(UNKNOWN), ACTUATED)
     assert cli.main(["new", str(case), "--from", "wecsim", str(source)]) == 0
     told = "force of pto(1) from Simulink is zero as yet: write pto1_actuator of functions.py"
@@ -41,6 +44,10 @@ def test_what_is_not_converted_is_prepared(tmp_path: Path, capsys) -> None:
         "joints/pto1/displacement_rate",
         "gauges/marker1/elevation",
     ]
+    assert (
+        "sweep power_matrix.toml --functions functions.py"
+        in (case / "power_matrix.toml").read_text()
+    )
     text = (case / "functions.py").read_text()
     assert "def pto1_actuator(t, pto1_displacement, pto1_displacement_rate, marker1_ele" in text
     assert "b10/b31 (TransferFcn): Numerator = [5]; Denominator = [1 2]; in:1 < 'b21'" in text

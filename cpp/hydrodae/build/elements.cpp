@@ -209,7 +209,8 @@ void add_buoyancy(const model::Scene& scene, system::System& s) {
 
 void add_elements(const model::Scene& scene, const Sea& sea, system::System& s) {
   const model::Water water = model::water(scene);
-  const element::Surroundings around{water.gravity, water.density, sea.field};
+  const element::Surroundings around{water.gravity, water.density, sea.field,
+                                     scene.seabed ? scene.seabed->surface() : nullptr};
   const auto add = [&](const auto& forces) {
     for (const auto& force : forces)
       check_given(force);

@@ -17,7 +17,7 @@ constexpr double thin_line = 0.01; ///< depth of a line without a diameter [m]
 
 /// Part of a line.
 struct Part {
-  double l, mass, diameter, EA, damping, EI, strength;
+  double l, mass, diameter, EA, softest, damping, EI, strength; ///< `softest`: slope at strain 0
   const Line& of;
   std::size_t index;
 };
@@ -26,12 +26,14 @@ Part part_of(const Line& of, std::size_t i, double length) {
   const auto get = [&](const std::vector<double>& values, double otherwise = 0.0) {
     return Line::of_part(values, i, otherwise);
   };
-  const double l = length / get(of.segments, 20.0), m = get(of.mass), EA = get(of.stiffness);
+  const double l = length / get(of.segments, 20.0), m = get(of.mass);
+  const double EA = of.stiffness_of(i),
+               softest = of.has_curve(i) ? of.curve_tension[1] / of.curve_strain[1] : EA;
   const double C =
       of.damping_ratio.empty() ? get(of.damping) : get(of.damping_ratio) * l * std::sqrt(EA * m);
-  return {
-      l,  m, get(of.diameter), EA, C, get(of.bending_stiffness), get(of.breaking_load, INFINITY),
-      of, i};
+  return {l,       m, get(of.diameter),          EA,
+          softest, C, get(of.bending_stiffness), get(of.breaking_load, INFINITY),
+          of,      i};
 }
 
 /// Adds half a segment to a node.
@@ -103,9 +105,20 @@ LineModel line_model(const Line& of, const element::Surroundings& of_case, doubl
   m.free_end = of.free_end;
   m.bends = (of.shape() & 2) != 0;
   const double depth = of.seabed_depth.value_or(around.water.depth);
-  if (of.seabed && std::isfinite(depth))
+  if (of.seabed && around.seabed) {
+    m.surface = around.seabed;
+    m.bed = m.surface->top();
+  } else if (of.seabed && std::isfinite(depth)) {
     m.bed = -depth;
+  }
   m.nodes.emplace_back();
+  std::shared_ptr<const Curve> curve;
+  if (!of.curve_strain.empty()) {
+    std::vector<double> pulled = of.curve_tension;
+    for (double& T : pulled)
+      T *= of.curve_strain.back() / of.curve_tension.back();
+    curve = std::make_shared<const Curve>(of.curve_strain, std::move(pulled));
+  }
   for (std::size_t i = 0; i < of.length.size(); ++i) {
     const Part p = part_of(of, i, i == 0 ? first : of.length[i]);
     const auto n = static_cast<int>(Line::of_part(of.segments, i, 20.0));
@@ -113,7 +126,8 @@ LineModel line_model(const Line& of, const element::Surroundings& of_case, doubl
         std::abs(p.mass * around.gravity -
                  around.density * around.gravity * 0.25 * pi * p.diameter * p.diameter);
     for (int k = 0; k < n; ++k) {
-      m.segments.push_back({p.l, p.EA, p.damping, std::max(weight * p.l / p.EA, 1e-6), p.strength});
+      m.segments.push_back({p.l, p.EA, p.damping, std::max(weight * p.l / p.softest, 1e-6),
+                            p.strength, of.has_curve(i) ? curve : nullptr});
       add_half(p, around, m.bed, m.nodes.back());
       LineNode next;
       next.at = m.nodes.back().at + p.l;

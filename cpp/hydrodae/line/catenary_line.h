@@ -30,6 +30,7 @@ struct CatenaryLine {
   std::string body_a = "ground", body_b;
   Vector3 point_a = Vector3::Zero(), point_b = Vector3::Zero();
   std::vector<double> length, weight, stiffness, loads, dry_weight, dry_loads;
+  double stiffness_of(std::size_t part) const { return stiffness[part]; } ///< EA [N]
   std::optional<double> pretension;
   bool seabed = true;
   double friction = 0.0;

@@ -5,11 +5,22 @@
 #include <numeric>
 
 #include "hydrodae/core/text.h"
+#include "hydrodae/math/curve.h"
 
 namespace hydrodae::line {
 
 double Line::of_part(const std::vector<double>& values, std::size_t part, double otherwise) {
   return values.empty() ? otherwise : values[values.size() == 1 ? 0 : part];
+}
+
+bool Line::has_curve(std::size_t part) const {
+  return !curve_strain.empty() &&
+         (curve_parts.empty() || std::find(curve_parts.begin(), curve_parts.end(),
+                                           static_cast<double>(part + 1)) != curve_parts.end());
+}
+
+double Line::stiffness_of(std::size_t part) const {
+  return has_curve(part) ? curve_tension.back() / curve_strain.back() : of_part(stiffness, part);
 }
 
 int Line::n_segments() const {
@@ -27,6 +38,39 @@ std::size_t Line::shape() const {
 }
 
 namespace {
+
+/// Checks the curve, and that each part has either a stiffness or the curve.
+std::optional<Fault> fault_of_curve(const Line& of) {
+  if (const std::string_view wrong = Curve::fault(of.curve_strain, of.curve_tension);
+      !wrong.empty())
+    return Fault{"curve_strain", "'curve_strain' " + std::string(wrong) + " 'curve_tension'"};
+  const std::vector<double>& T = of.curve_tension;
+  if (!T.empty() && (of.curve_strain[0] != 0.0 || T[0] != 0.0))
+    return Fault{"curve_strain", "the curve begins at strain 0 and tension 0"};
+  for (std::size_t i = 1; i < T.size(); ++i)
+    if (!(T[i] > T[i - 1]))
+      return Fault{"curve_tension",
+                   "'curve_tension' must ascend: a line that stretches pulls more"};
+  if (T.empty() && !of.curve_parts.empty())
+    return Fault{"curve_parts", "parts of which curve? Write 'curve_strain' and 'curve_tension'"};
+  for (const double part : of.curve_parts)
+    if (!(part >= 1.0 && part <= static_cast<double>(of.length.size()) && part == std::floor(part)))
+      return Fault{"curve_parts", "there is no part " + number_text(part) + "; parts count from 1"};
+  bool all = true;
+  for (std::size_t i = 0; i < of.length.size(); ++i) {
+    const bool curved = of.has_curve(i), several = of.stiffness.size() > 1;
+    all = all && curved;
+    if (!curved && !(Line::of_part(of.stiffness, i) > 0.0))
+      return Fault{"stiffness", "part " + std::to_string(i + 1) +
+                                    " needs a stiffness above 0, or the curve ('curve_parts')"};
+    if (curved && several && of.stiffness[i] != 0.0)
+      return Fault{"stiffness",
+                   "part " + std::to_string(i + 1) + " has a curve: write 0 as its stiffness"};
+  }
+  if (all && !of.stiffness.empty())
+    return Fault{"stiffness", "the curve gives the tension of all parts: leave out 'stiffness'"};
+  return {};
+}
 
 /// Checks lists with one number, or one for each part, or none.
 std::optional<Fault> fault_of_parts(const Line& of) {
@@ -49,8 +93,10 @@ std::optional<Fault> fault_of_parts(const Line& of) {
   for (const auto& [key, values] : all)
     if (values->size() > 1 && values->size() != of.length.size())
       return Fault{key, "'" + key + "' takes one number, or as many as parts in 'length'"};
-  if (of.mass.empty() || of.stiffness.empty())
-    return Fault{of.mass.empty() ? "mass" : "stiffness", "a line needs one number at least"};
+  if (of.mass.empty())
+    return Fault{"mass", "a line needs one number at least"};
+  if (std::optional<Fault> wrong = fault_of_curve(of))
+    return wrong;
   for (const double n : of.segments)
     if (n != std::floor(n))
       return Fault{"segments", "a part has a whole number of segments"};
@@ -115,15 +161,20 @@ std::optional<Fault> Line::fault(const element::Surroundings& around) const {
       (needs_water(diameter) || needs_water(attachment_volume)))
     return Fault{"diameter", "a line with a volume needs the density of the water: water_density "
                              "[kg/m3] of the line or in [environment], or a hydrodynamic database"};
-  const double bed = -seabed_depth.value_or(around.water.depth);
+  if (seabed && seabed_depth && around.seabed)
+    return Fault{"seabed_depth", "the case has a [seabed] with depths of its own: leave one out"};
   if (seabed && seabed_depth && *seabed_depth > 1.001 * around.water.depth)
     return Fault{"seabed_depth",
                  "the water is only " + number_text(around.water.depth) + " m deep"};
-  if (seabed && std::isfinite(bed))
-    for (const auto& [body, point] : ends())
-      if (point[2] < bed - 1e-3 * std::abs(bed))
-        return Fault{&point == &point_a ? "point_a" : "point_b",
-                     "this end is below the seabed, which is at z = " + number_text(bed) + " m"};
+  const auto all = ends();
+  for (std::size_t k = 0; k < all.size() && seabed; ++k) {
+    const Vector3& point = all[k].second;
+    const double bed = around.seabed ? around.seabed->at(point[0], point[1]).value
+                                     : -seabed_depth.value_or(around.water.depth);
+    if (point[2] < bed - 1e-3 * std::abs(bed))
+      return Fault{k == 0 ? "point_a" : "point_b",
+                   "this end is below the seabed, which is at z = " + number_text(bed) + " m"};
+  }
   return {};
 }
 
@@ -147,7 +198,17 @@ Fields<Line> Line::fields() {
        "Diameters D of cylinders of the same volume; 0, the default: no buoyancy, no drag and no "
        "added mass.",
        false, at_least(0)},
-      {"stiffness", &L::stiffness, "N", "Axial stiffnesses EA of the parts.", true, more_than(0)},
+      {"stiffness", &L::stiffness, "N",
+       "Axial stiffnesses EA of the parts; 0 for a part with the curve.", false, at_least(0)},
+      {"curve_strain", &L::curve_strain, "-",
+       "In place of `stiffness`: strains, ascending from 0, of `curve_tension`.", false,
+       at_least(0)},
+      {"curve_tension", &L::curve_tension, "N",
+       "Tensions at these strains, ascending from 0; between them a smooth ascending curve, beyond "
+       "the last one straight on.",
+       false, at_least(0)},
+      {"curve_parts", &L::curve_parts, "-", "Parts with the curve, counted from 1; default: all.",
+       false, at_least(1)},
       {"damping", &L::damping, "N s", "Axial dampings C: tension C strain'.", false, at_least(0)},
       {"damping_ratio", &L::damping_ratio, "-",
        "In place of `damping`, C = ratio l sqrt(EA m): part of the critical damping of a segment.",

@@ -14,7 +14,7 @@
 namespace hydrodae::line {
 
 /// Dynamic mooring line: lumped masses at the ends of elastic segments, with weight, buoyancy, drag
-/// and inertia of the water, bending, and a flat seabed (equations in line_model.h). It has one or
+/// and inertia of the water, bending, and a seabed (equations in line_model.h). It has one or
 /// more parts, with clumps and buoys between segments.
 struct Line {
   static constexpr std::string_view type = "line";
@@ -26,6 +26,7 @@ struct Line {
   Vector3 point_a = Vector3::Zero(), point_b = Vector3::Zero();
   bool free_end = false;
   std::vector<double> length, segments, mass, diameter, stiffness;
+  std::vector<double> curve_strain, curve_tension, curve_parts;
   std::vector<double> damping, damping_ratio, bending_stiffness;
   std::vector<double> drag, drag_axial, added_mass, added_mass_axial, breaking_load,
       contact_diameter;
@@ -50,6 +51,11 @@ struct Line {
   int n_segments() const;
   /// Value of part `part`; a list has one entry for all parts or one for each.
   static double of_part(const std::vector<double>& values, std::size_t part, double otherwise = 0);
+
+  /// Returns whether the curve is that of part `part`, counted from 0.
+  bool has_curve(std::size_t part) const;
+  /// EA of part `part` [N]; of the curve the secant at its last point.
+  double stiffness_of(std::size_t part) const;
 
   /// Index of the list: lines in one list have the same number of segments and kinds of entries,
   /// and all break or none does.

@@ -54,7 +54,7 @@ void add_segments(const LineView<double>& at, LineBlocks& K) {
     const double c = seg.damping / seg.length;
     const Vector3 turned = P * (at.velocity(k + 1) - at.velocity(k)) / p.length;
     const Vector3 T_d =
-        (seg.stiffness * s.slope + c * p.rate * damped.curvature) / seg.length * p.e +
+        (seg.stiffness * at.pulled(k, s).slope + c * p.rate * damped.curvature) / seg.length * p.e +
         c * damped.slope * turned;
     const Matrix3 B = p.e * T_d.transpose() + p.tension / p.length * P,
                   D = c * damped.slope * p.e * p.e.transpose();
@@ -87,6 +87,34 @@ void add_bed(const LineModel& m, const LineNode& node, const Vector3& x, const V
   by_x.block<2, 1>(0, 2) += node.friction * k * s.slope * h;
   by_v.topLeftCorner<2, 2>() -=
       node.friction * k * s.value / r * (Eigen::Matrix2d::Identity() - h * h.transpose());
+}
+
+/// Adds a bed that is not flat: d g = -H dx with the second derivatives H of the bed, q = |g|.
+void add_slope(const LineModel& m, const LineNode& node, const Vector3& x, const Vector3& v,
+               Matrix3& by_x, Matrix3& by_v) {
+  const BedContact<double> at = bed_contact<double>(m, node, x);
+  const Plus<double>& s = at.s;
+  if (!(s.value > 0.0))
+    return;
+  const Vector3& g = at.up;
+  Matrix3 H = Matrix3::Zero();
+  H.topLeftCorner<2, 2>() << at.bed.xx, at.bed.xy, at.bed.xy, at.bed.yy;
+  const double into = -g.dot(v), square = g.squaredNorm(), q = std::sqrt(square);
+  const Plus<double> down = down_rate<double>(into, m.bed_damps_up);
+  const double k = node.bed_stiffness, c = node.bed_damping, rub = node.friction * k;
+  const Vector3 turned = H * v, tilted = H * g;
+  by_x += g * (c * s.slope * down.slope * turned - (k * s.slope + c * s.curvature * down.value) * g)
+                  .transpose() -
+          (k * s.value + c * s.slope * down.value) * H;
+  by_v -= c * s.slope * down.slope * g * g.transpose();
+  const Vector3 slip = v + into / square * g;
+  const double r = std::sqrt(slip.squaredNorm() + slip_speed * slip_speed);
+  const Vector3 h = slip / r;
+  const Matrix3 turn = rub * s.value * q / r * (Matrix3::Identity() - h * h.transpose());
+  by_x += rub * h * (s.slope * q * g + s.value / q * tilted).transpose() -
+          turn * (g * (turned / square + 2.0 * into / (square * square) * tilted).transpose() -
+                  into / square * H);
+  by_v -= turn * (Matrix3::Identity() - g * g.transpose() / square);
 }
 
 /// Derivatives of the water force by the node's place, velocity and tangent.
@@ -178,7 +206,8 @@ double* line_jacobian(const LineView<double>& at, const sea::WaveField& sea, dou
     const auto k = static_cast<std::size_t>(i);
     const LineNode& node = m.nodes[k];
     const bool end = m.is_end(i);
-    add_bed(m, node, at.place(i), at.velocity(i), K.by_place[k][2], K.by_velocity[k][1]);
+    (m.surface ? add_slope : add_bed)(m, node, at.place(i), at.velocity(i), K.by_place[k][2],
+                                      K.by_velocity[k][1]);
     NodeWater<double> w{Vector3::Zero(), {}, 0.0, 0.0};
     const Vector3 a =
         end ? Vector3(Vector3::Zero()) : Vector3(Eigen::Map<const Vector3>(rates + 6 * i - 3));

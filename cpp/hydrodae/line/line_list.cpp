@@ -1,6 +1,7 @@
 #include "hydrodae/line/line_list.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -43,12 +44,30 @@ LinePowers line_powers(const LineView<double>& at, const sea::WaveField& sea, do
       f[2] -= node.lift + node.body_lift;
       out.water -= f.dot(v);
     }
-    Vector3 f = bed_force<double>(m, node, x, v);
-    f[2] -=
-        node.bed_stiffness * plus<double>(m.bed + node.axis_height - x[2], node.bed_width).value;
-    out.seabed -= f.dot(v);
+    const BedContact<double> bed = bed_contact<double>(m, node, x);
+    const Vector3 elastic = node.bed_stiffness * bed.s.value * bed.up;
+    out.seabed -= (bed_force<double>(m, node, bed, v) - elastic).dot(v);
   }
   return out;
+}
+
+/// Integral of tension over EA by the strain [-]; with a curve by Gauss's rule over the bend of s,
+/// where it is a polynomial of degree 12 at most, and by the area of the curve beyond.
+double strain_energy(const LineSegment& seg, double strain) {
+  if (!seg.curve)
+    return plus_integral(strain, seg.slack);
+  constexpr std::array<double, 3> places = {0.238619186083197, 0.661209386466265,
+                                            0.932469514203152},
+                                  weights = {0.467913934572691, 0.360761573048139,
+                                             0.171324492379170};
+  const double half = 0.5 * (std::min(strain, seg.slack) + seg.slack);
+  double out = 0.0;
+  for (std::size_t i = 0; half > 0.0 && i < places.size(); ++i)
+    for (const double side : {-1.0, 1.0}) {
+      const double there = half * (1.0 + side * places[i]) - seg.slack;
+      out += half * weights[i] * (*seg.curve)(plus<double>(there, seg.slack).value);
+    }
+  return strain > seg.slack ? out + seg.curve->area(strain) - seg.curve->area(seg.slack) : out;
 }
 
 double line_energy(const LineView<double>& at) {
@@ -59,18 +78,19 @@ double line_energy(const LineView<double>& at) {
     const LineSegment& seg = m.segments[static_cast<std::size_t>(k)];
     const Vector3 d = at.place(k + 1) - at.place(k), e = d.normalized();
     if (k != at.parted)
-      out += seg.stiffness * seg.length *
-             plus_integral((d.norm() - seg.length) / seg.length, seg.slack);
+      out += seg.stiffness * seg.length * strain_energy(seg, (d.norm() - seg.length) / seg.length);
     if (k > 0)
       out += at.bending(k) * (1.0 - before.dot(e));
     before = e;
   }
   for (int i = 0; i <= m.n(); ++i) {
     const LineNode& node = m.nodes[static_cast<std::size_t>(i)];
-    const double z = at.place(i)[2];
+    const Vector3 x = at.place(i);
+    const double z = x[2];
     out += (node.mass * m.gravity - node.lift - node.body_lift) * z;
     if (node.bed_stiffness > 0.0)
-      out += node.bed_stiffness * plus_integral(m.bed + node.axis_height - z, node.bed_width);
+      out += node.bed_stiffness *
+             plus_integral(m.bed_at<double>(x).value + node.axis_height - z, node.bed_width);
     if (!m.is_end(i))
       out += 0.5 * node.mass * at.velocity(i).squaredNorm();
   }

@@ -7,26 +7,32 @@
 ///                                                        throughout
 ///   F_water = w (Morison's force), along and across t_i = (x_i+1 - x_i-1) / |.|    (morison.h)
 ///   F_bend  = -grad sum_i EI / l_i (1 - e_i-1/2 . e_i+1/2)
-///   F_bed   = (k s(d) + c s'(d) p(-v_z)) z - mu k s(d) v_h / sqrt(v_h^2 + v_s^2)
-/// w: wet part of the node; d: depth of the node in the bed [m]; p: positive part, smooth, so that
-/// the bed never pulls; with `bed_damps_up` p(v) = v, and the bed may pull. End nodes add the
+///   F_bed   = (k s(d) + c s'(d) p(d')) g - mu k s(d) |g| v_t / sqrt(v_t^2 + v_s^2)
+/// w: wet part of the node; d = b(x, y) - z: depth of the node in the bed at z = b [m]; g = -grad d
+/// = (-b_x, -b_y, 1): normal of the bed, so that k s(d) g is minus the gradient of the energy of
+/// the bed; v_t: velocity across g; p: positive part, smooth, so that the bed never pulls; with
+/// `bed_damps_up` p(v) = v, and the bed may pull. On a flat bed g = z. End nodes add the
 /// inertia of half a segment to that of their body.
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "hydrodae/element/surroundings.h"
+#include "hydrodae/math/curve.h"
+#include "hydrodae/math/smooth_table.h"
 #include "hydrodae/water/morison.h"
 
 namespace hydrodae::line {
 
 struct LineSegment {
   double length = 0.0;    ///< unstretched length [m]
-  double stiffness = 0.0; ///< EA [N]
+  double stiffness = 0.0; ///< EA [N]; with a curve: secant at its last point
   double damping = 0.0;   ///< C [N s]
   double slack = 0.0;     ///< half the width of strain in which s bends [-]
   double strength = std::numeric_limits<double>::infinity(); ///< breaking load [N]
+  std::shared_ptr<const Curve> curve; ///< tension over EA by s [-]; null: s itself
 };
 
 struct LineNode {
@@ -48,13 +54,20 @@ struct LineModel {
   std::vector<LineSegment> segments; ///< (N,)
   std::vector<LineNode> nodes;       ///< (N + 1,)
   double gravity = 9.81;
-  double bed = -std::numeric_limits<double>::infinity(); ///< height of the bed [m]
-  bool wet = false;                                      ///< true: there is water
+  /// height of the bed, or an upper bound of that of `surface` [m]
+  double bed = -std::numeric_limits<double>::infinity();
+  std::shared_ptr<const SmoothTable> surface; ///< bed, z over x and y [m]; null: flat
+  bool wet = false;                           ///< true: there is water
   bool bends = false;
   bool damps_slack = false;  ///< true: C acts in slack segments, too
   bool bed_damps_up = false; ///< true: c acts on the way up, too
   bool free_end = false;
 
+  /// Bed beneath the place x.
+  template <class S> SurfacePoint<S> bed_at(const Vec3<S>& x) const {
+    return surface ? surface->at<S>(x[0], x[1])
+                   : SurfacePoint<S>{S(bed), S(0), S(0), S(0), S(0), S(0)};
+  }
   int n() const { return static_cast<int>(segments.size()); }
   int n_points() const { return free_end ? 1 : 2; }
   int n_unknown() const { return free_end ? n() : n() - 1; } ///< number of free nodes
@@ -82,7 +95,7 @@ inline double plus_integral(double x, double w) {
   if (x <= -w)
     return 0.0;
   if (x >= w)
-    return 0.5 * x * x + 0.05 * w * w;
+    return 0.5 * x * x + 0.1 * w * w;
   const double y = x / w;
   return w * w * (0.25 * y * y + 0.125 * y * y * y - 0.0125 * std::pow(y, 5) + 0.1875 * y + 0.05);
 }
@@ -102,6 +115,13 @@ template <class S> struct LineView {
       return {S(0), S(0), S(0)};
     const LineSegment& seg = m.segments[static_cast<std::size_t>(k)];
     return plus<S>((length - S(seg.length)) / S(seg.length), seg.slack);
+  }
+  /// Tension over EA of segment k at s of its strain; its slope is that over the strain.
+  Plus<S> pulled(int k, const Plus<S>& s) const {
+    const Curve* curve = m.segments[static_cast<std::size_t>(k)].curve.get();
+    if (!curve)
+      return s;
+    return {(*curve)(s.value), curve->slope(s.value) * s.slope, S(0)};
   }
   /// Factor of the damping of segment k, from its s.
   Plus<S> damped(int k, const Plus<S>& s) const {
@@ -150,8 +170,8 @@ template <class S> SegmentPull<S> segment_pull(const LineView<S>& at, int k) {
   out.e = d / out.length;
   out.rate = out.e.cwiseProduct(at.velocity(k + 1) - at.velocity(k)).sum();
   const Plus<S> s = at.stretch(k, out.length);
-  out.tension =
-      S(seg.stiffness) * s.value + S(seg.damping / seg.length) * out.rate * at.damped(k, s).slope;
+  out.tension = S(seg.stiffness) * at.pulled(k, s).value +
+                S(seg.damping / seg.length) * out.rate * at.damped(k, s).slope;
   return out;
 }
 
@@ -230,19 +250,32 @@ template <class S> Plus<S> down_rate(const S& v, bool both) {
   return both ? down_rate<true, S>(v) : down_rate<false, S>(v);
 }
 
+/// Bed at a node: s(d), and the normal g.
+template <class S> struct BedContact {
+  SurfacePoint<S> bed;
+  Plus<S> s;
+  Vec3<S> up;
+};
 template <class S>
-Vec3<S> bed_force(const LineModel& m, const LineNode& node, const Vec3<S>& x, const Vec3<S>& v) {
+BedContact<S> bed_contact(const LineModel& m, const LineNode& node, const Vec3<S>& x) {
+  const SurfacePoint<S> bed = m.bed_at<S>(x);
+  return {bed, plus<S>(bed.value + S(node.axis_height) - x[2], node.bed_width),
+          Vec3<S>(-bed.x, -bed.y, S(1))};
+}
+
+template <class S>
+Vec3<S> bed_force(const LineModel& m, const LineNode& node, const BedContact<S>& at,
+                  const Vec3<S>& v) {
   using std::sqrt;
-  Vec3<S> f = Vec3<S>::Zero();
-  const Plus<S> s = plus<S>(S(m.bed + node.axis_height) - x[2], node.bed_width);
-  if (!(s.value > S(0)))
-    return f;
-  const S down = down_rate<S>(S(-v[2]), m.bed_damps_up).value;
-  const S drag = S(-node.friction * node.bed_stiffness) * s.value /
-                 sqrt(v[0] * v[0] + v[1] * v[1] + S(slip_speed * slip_speed));
-  f << drag * v[0], drag * v[1],
-      S(node.bed_stiffness) * s.value + S(node.bed_damping) * s.slope * down;
-  return f;
+  if (!(at.s.value > S(0)))
+    return Vec3<S>::Zero();
+  const S into = -at.up.cwiseProduct(v).sum(), square = at.up.cwiseProduct(at.up).sum();
+  const S down = down_rate<S>(into, m.bed_damps_up).value;
+  const Vec3<S> slip = v + into / square * at.up;
+  const S drag = S(-node.friction * node.bed_stiffness) * at.s.value *
+                 sqrt(square / (slip.cwiseProduct(slip).sum() + S(slip_speed * slip_speed)));
+  return (S(node.bed_stiffness) * at.s.value + S(node.bed_damping) * at.s.slope * down) * at.up +
+         drag * slip;
 }
 
 /// Mass of a node across and along the line, with the added mass.

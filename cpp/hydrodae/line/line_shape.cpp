@@ -15,8 +15,8 @@ double net_weight(const LineModel& m, const LineNode& node) {
 }
 
 /// Height of a node that lies on the bed.
-double resting_height(const LineModel& m, int node) {
-  return m.bed + m.nodes[static_cast<std::size_t>(node)].axis_height;
+double resting_height(const LineModel& m, const Vector3& x, int node) {
+  return m.bed_at<double>(x).value + m.nodes[static_cast<std::size_t>(node)].axis_height;
 }
 
 /// Catenary of the same weights between the ends, the lower one first: segments are parts, and half
@@ -56,7 +56,7 @@ void straight(const LineModel& m, const Vector3& a, const Vector3& b, VectorX& p
 bool hang(const LineModel& m, const Vector3& a, const Vector3& b, VectorX& places) {
   const bool turned = b[2] < a[2];
   const Vector3 &low = turned ? b : a, &high = turned ? a : b;
-  const bool bed = low[2] <= m.bed + 0.01 * m.nodes.back().at;
+  const bool bed = low[2] <= m.bed_at<double>(low).value + 0.01 * m.nodes.back().at;
   const Catenary line = like(m, turned, bed);
   for (const LinePart& part : line.parts)
     if (part.weight == 0.0 || (bed && part.weight < 0.0))
@@ -87,7 +87,7 @@ void drop(const LineModel& m, const Vector3& a, const Vector3& towards, VectorX&
   double weight = 0.0;
   for (const LineNode& node : m.nodes)
     weight += net_weight(m, node);
-  const double room = weight >= 0.0 ? std::max(0.0, a[2] - m.bed) : HUGE_VAL;
+  const double room = weight >= 0.0 ? std::max(0.0, a[2] - m.bed_at<double>(a).value) : HUGE_VAL;
   for (int i = 1; i <= m.n_unknown(); ++i) {
     const double s = m.nodes[static_cast<std::size_t>(i)].at, down = std::min(s, room);
     places.segment<3>(3 * (i - 1)) =
@@ -139,7 +139,8 @@ VectorX line_shape(const LineModel& m, const double* x, const Vector3& free_end)
     spread(m, a, b, places);
   }
   for (int i = 0; i < m.n_unknown(); ++i)
-    places[3 * i + 2] = std::max(places[3 * i + 2], resting_height(m, i + 1));
+    places[3 * i + 2] =
+        std::max(places[3 * i + 2], resting_height(m, places.segment<3>(3 * i), i + 1));
   return places;
 }
 

@@ -57,6 +57,9 @@ enum {
   wet,
   own_mass,
   inverse_length,
+  bed,
+  bed_x,
+  bed_y,
   n
 };
 }
@@ -83,7 +86,7 @@ HYDRODAE_PART void spread(const LineView<S>& at, const Triples<S>& x, const Trip
 }
 
 /// Computes spans and pulls of the segments, rows 1 .. N.
-template <bool damps_slack, class S>
+template <bool damps_slack, bool curved, class S>
 HYDRODAE_PART void pull_segments(const LineTable& table, int n, LineArrays<S>& arrays) {
   using std::sqrt;
   const Triples<S> x = triples(arrays, at_::place), v = triples(arrays, at_::velocity),
@@ -101,7 +104,11 @@ HYDRODAE_PART void pull_segments(const LineTable& table, int n, LineArrays<S>& a
     const S rate = per_l * dot(d, v[k + 1] - v[k]);
     const Plus<S> s = plus<S>((l - S(length[k])) * S(per_length[k]), slack[k]);
     const S by = damps_slack ? S(1) : s.slope;
-    const S tension = S(stiffness[k]) * s.value + S(damping[k]) * rate * by;
+    S pulled = s.value;
+    if constexpr (curved)
+      if (const Curve* curve = table.curves[static_cast<std::size_t>(k)].get())
+        pulled = (*curve)(pulled);
+    const S tension = S(stiffness[k]) * pulled + S(damping[k]) * rate * by;
     span.put(k + 1, d);
     pull.put(k + 1, (tension * per_l) * d);
     inverse[k + 1] = per_l;
@@ -175,6 +182,44 @@ HYDRODAE_PART void lie(const LineTable& table, int n, LineArrays<S>& arrays) {
     force.x[i] += drag * v.x[i];
     force.y[i] += drag * v.y[i];
     force.z[i] += S(stiffness[i]) * s.value + S(damping[i]) * s.slope * down;
+  }
+}
+
+/// Adds the forces of a bed that is not flat.
+template <bool damps_up, class S>
+HYDRODAE_PART void lie_on_slopes(const LineTable& table, const LineModel& m,
+                                 LineArrays<S>& arrays) {
+  using std::sqrt;
+  const Triples<S> x = triples(arrays, at_::place), v = triples(arrays, at_::velocity),
+                   force = triples(arrays, at_::force);
+  S *bed = arrays.column(at_::bed), *bed_x = arrays.column(at_::bed_x),
+    *bed_y = arrays.column(at_::bed_y);
+  const double *height = table.nodes.col(node::bed_height).data(),
+               *width = table.nodes.col(node::bed_width).data(),
+               *stiffness = table.nodes.col(node::bed_stiffness).data(),
+               *damping = table.nodes.col(node::bed_damping).data(),
+               *friction = table.nodes.col(node::friction).data();
+  const int n = m.n();
+  for (int i = 0; i <= n; ++i) {
+    const Triple<S> at = x[i];
+    const SurfacePoint<S> here = at.z < S(table.bed_top)
+                                     ? m.surface->template at<S>(at.x, at.y)
+                                     : SurfacePoint<S>{S(m.bed), S(0), S(0), S(0), S(0), S(0)};
+    bed[i] = here.value - S(m.bed);
+    bed_x[i] = here.x;
+    bed_y[i] = here.y;
+  }
+#pragma GCC ivdep
+  for (int i = 0; i <= n; ++i) {
+    const Triple<S> g = {-bed_x[i], -bed_y[i], S(1)};
+    const S into = -dot(g, v[i]), square = dot(g, g);
+    const Triple<S> slip = v[i] + (into / square) * g;
+    const Plus<S> s = plus<S>((S(height[i]) + bed[i]) - x.z[i], width[i]);
+    const S down = down_rate<damps_up, S>(into).value;
+    const S drag = S(-friction[i] * stiffness[i]) * s.value *
+                   sqrt(square / (dot(slip, slip) + S(slip_speed * slip_speed)));
+    const S push = S(stiffness[i]) * s.value + S(damping[i]) * s.slope * down;
+    force.put(i, force[i] + (push * g + drag * slip));
   }
 }
 
@@ -276,10 +321,13 @@ HYDRODAE_PART void evaluate(const LineTable& table, const LineView<S>& at,
                    a = triples(arrays, at_::acceleration);
   S* mass = arrays.column(at_::own_mass);
   spread(at, x, v);
+  const bool curved = !table.curves.empty();
   if (m.damps_slack)
-    pull_segments<true>(table, n, arrays);
+    curved ? pull_segments<true, true>(table, n, arrays)
+           : pull_segments<true, false>(table, n, arrays);
   else
-    pull_segments<false>(table, n, arrays);
+    curved ? pull_segments<false, true>(table, n, arrays)
+           : pull_segments<false, false>(table, n, arrays);
   part(at, pull, triples(arrays, at_::span));
   const double *weight = table.nodes.col(node::weight).data(),
                *own = table.nodes.col(node::mass).data();
@@ -295,7 +343,10 @@ HYDRODAE_PART void evaluate(const LineTable& table, const LineView<S>& at,
   for (int i = 1; i <= n; ++i)
     low = x.z[i] < low ? x.z[i] : low;
   if (low < S(table.bed_top)) {
-    if (m.bed_damps_up)
+    if (m.surface)
+      m.bed_damps_up ? lie_on_slopes<true>(table, m, arrays)
+                     : lie_on_slopes<false>(table, m, arrays);
+    else if (m.bed_damps_up)
       lie<true>(table, n, arrays);
     else
       lie<false>(table, n, arrays);
@@ -357,6 +408,10 @@ LineTable::LineTable(const LineModel& m)
     const LineSegment& s = m.segments[static_cast<std::size_t>(k)];
     segments.row(k) << s.length, 1.0 / s.length, s.stiffness, s.damping / s.length, s.slack;
   }
+  if (std::any_of(m.segments.begin(), m.segments.end(),
+                  [](const LineSegment& s) { return s.curve != nullptr; }))
+    for (const LineSegment& s : m.segments)
+      curves.push_back(s.curve);
   bed_top = m.bed;
   for (int i = 0; i <= m.n(); ++i) {
     const LineNode& q = m.nodes[static_cast<std::size_t>(i)];

@@ -16,8 +16,10 @@ struct LineTable {
   Eigen::ArrayXXd segments;  ///< (N, .) columns in line_table.cpp
   Eigen::ArrayXXd nodes;     ///< (N + 1, .)
   std::vector<int> attached; ///< nodes with an attachment
-  double reach = 0.0;        ///< upper bound of the height of a part above its node [m]
-  double bed_top = 0.0;      ///< height above which no node touches the bed [m]
+  /// Curve of each segment (LineSegment::curve); empty: all are linear
+  std::vector<std::shared_ptr<const Curve>> curves;
+  double reach = 0.0;   ///< upper bound of the height of a part above its node [m]
+  double bed_top = 0.0; ///< height above which no node touches the bed [m]
 };
 
 /// Scratch of an evaluation; it keeps the forces on the nodes, without inertia.

@@ -60,6 +60,17 @@ public:
            a * a * ((S(1) + S(2) * b) * S(y_[i + 1]) - b * S(h * slope_[i + 1]));
   }
 
+  /// Derivative at x.
+  template <class S> S slope(const S& x) const {
+    if (x < S(x_.front()) || x > S(x_.back()))
+      return S(x < S(x_.front()) ? slope_.front() : slope_.back());
+    const std::size_t i = find([&](double knot) { return x < S(knot); });
+    const double h = x_[i + 1] - x_[i];
+    const S a = (x - S(x_[i])) / S(h), b = S(1) - a;
+    return a * b * S(6.0 * (y_[i + 1] - y_[i]) / h) + b * (S(1) - S(3) * a) * S(slope_[i]) +
+           a * (S(1) - S(3) * b) * S(slope_[i + 1]);
+  }
+
   /// Integral from x_0 [units of x y].
   double area(double x) const {
     if (x < x_.front() || x > x_.back()) {

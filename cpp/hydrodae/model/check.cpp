@@ -136,6 +136,7 @@ void check(const Scene& scene) {
     check_controller(scene, controller);
   check_solver(scene);
   check_sea(scene);
+  check_seabed(scene);
   for (const sea::Gauge& gauge : scene.gauges)
     check_gauge(scene, gauge);
   check_parts(scene);

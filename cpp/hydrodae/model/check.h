@@ -30,6 +30,7 @@ void check_claims(const Scene& scene);
 void check_controller(const Scene& scene, const Controller& controller);
 void check_solver(const Scene& scene);
 void check_sea(const Scene& scene);
+void check_seabed(const Scene& scene);
 void check_second_order(const Scene& scene);                   ///< behind `check_database`
 void check_gauge(const Scene& scene, const sea::Gauge& gauge); ///< behind `check_sea`
 void check_pose_table(const Scene& scene, const PoseTable& table);

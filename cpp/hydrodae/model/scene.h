@@ -41,6 +41,7 @@
 #include "hydrodae/model/mode.h"
 #include "hydrodae/model/pose_table.h"
 #include "hydrodae/model/radiation.h"
+#include "hydrodae/model/seabed.h"
 #include "hydrodae/model/second_order.h"
 #include "hydrodae/sea/gauge.h"
 #include "hydrodae/sea/wave.h"
@@ -359,6 +360,7 @@ struct Scene {
   std::vector<Controller> controllers;
   std::vector<sea::Gauge> gauges;
   std::optional<SecondOrder> second_order;
+  std::optional<Seabed> seabed;
 };
 
 /// Checks that involve several entries: names exist and are unique, masses and inertias are

@@ -15,6 +15,7 @@ namespace hydrodae::model {
 /// list), a vector of `OneOf` or `Forces` (lists in which every `type` is a struct of its own).
 template <class Visit> void for_each_table(const Visit& visit) {
   visit("environment", &Scene::environment);
+  visit("seabed", &Scene::seabed);
   visit("hydro", &Scene::hydro);
   visit("pose_table", &Scene::pose_tables);
   visit("sea", &Scene::sea);

@@ -235,9 +235,11 @@ void judge_stretch(const model::Scene& scene, std::vector<Finding>& out) {
                    (force.pretension ? " N" : " m")});
   };
   const auto judge_line = [&](const auto& line) {
+    double softest = HUGE_VAL;
+    for (std::size_t i = 0; i < line.length.size(); ++i)
+      softest = std::min(softest, line.stiffness_of(i));
     judge(line, (line.point_b - line.point_a).norm(),
-          std::accumulate(line.length.begin(), line.length.end(), 0.0),
-          *std::min_element(line.stiffness.begin(), line.stiffness.end()));
+          std::accumulate(line.length.begin(), line.length.end(), 0.0), softest);
   };
   for (const line::Rope& rope : std::get<std::vector<line::Rope>>(scene.forces)) {
     double chord = 0.0;

@@ -27,6 +27,16 @@ def add_case(
         )
 
 
+def add_functions(parser: argparse.ArgumentParser) -> None:
+    """Add --functions."""
+    parser.add_argument(
+        "--functions",
+        metavar="FILE",
+        help="a file of Python that sets forces, controllers or drives: functions by the names of "
+        "the case. The file is executed",
+    )
+
+
 def add_quiet(parser: argparse.ArgumentParser, what: str = "no progress") -> None:
     """Add --quiet."""
     parser.add_argument("-q", "--quiet", action="store_true", help=what)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from hydrodae.commands.options import add_case, add_json, add_quiet
+from hydrodae.commands.options import add_case, add_functions, add_json, add_quiet
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -61,12 +61,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="go on from the checkpoint of a run that was cut off, or stopped",
     )
-    parser.add_argument(
-        "--functions",
-        metavar="FILE",
-        help="a file of Python that sets forces, controllers or drives: functions by the names of "
-        "the case. The file is executed",
-    )
+    add_functions(parser)
     add_json(parser)
     add_quiet(parser, "no progress, no summary")
 

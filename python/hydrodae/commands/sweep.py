@@ -7,7 +7,7 @@ from pathlib import Path
 
 from hydrodae.case.case import parse_assignment
 from hydrodae.commands.machine import of_optimum, of_sweep, print_json
-from hydrodae.commands.options import add_json, add_quiet
+from hydrodae.commands.options import add_functions, add_json, add_quiet
 from hydrodae.errors import CaseError
 from hydrodae.study.sweep import sweep, text
 from hydrodae.study.sweep.optimise import optimise
@@ -36,6 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="find the best values of the parameters in [optimise], by gradients",
     )
+    add_functions(parser)
     add_json(parser)
     add_quiet(parser)
 
@@ -59,6 +60,7 @@ def run(arguments: argparse.Namespace) -> int:
             set=values,
             jobs=arguments.jobs,
             scheduler=arguments.scheduler,
+            functions=arguments.functions,
             progress=None if arguments.quiet else progress,
         )
     if arguments.json:
@@ -75,8 +77,13 @@ def _optimise(arguments: argparse.Namespace) -> int:
     output = Path(arguments.output or Path(arguments.study).with_suffix(".nc"))
     values = dict(map(parse_assignment, arguments.set))
     with ProgressLine(Path(arguments.study).name, "evaluations") as progress:
-        shown = None if arguments.quiet else progress
-        found = optimise(arguments.study, output, set=values, progress=shown)
+        found = optimise(
+            arguments.study,
+            output,
+            set=values,
+            functions=arguments.functions,
+            progress=None if arguments.quiet else progress,
+        )
     if arguments.json:
         print_json(of_optimum(found))
         return 0

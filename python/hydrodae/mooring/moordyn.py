@@ -17,9 +17,10 @@ from hydrodae.mooring.moordyn_deck import Deck, Line, Point, read_deck
 from hydrodae.mooring.moordyn_lines import CARRIED, is_zero, line_keys, lost_of
 from hydrodae.mooring.moordyn_places import COUPLED, Places, poses
 from hydrodae.mooring.moordyn_rigid import add_rigid_bodies, note_clamps
+from hydrodae.mooring.moordyn_seabed import SEABED_OPTIONS, seabed_of
 from hydrodae.support.arrays import Array
 
-_CARRIED = ("g", "rho", "wtrdpth")
+_CARRIED = ("g", "rho", *SEABED_OPTIONS)
 
 
 def read_moordyn(
@@ -60,8 +61,9 @@ def read_moordyn(
     ------
     CaseError
         The file cannot be read, or it has something without which its moorings would be others:
-        stiffness from a table, a seabed that is not flat, free bodies or rods at the surface, or
-        stiff lines that a rod clamps. A line at rest lies in a way that `catenary` does not know.
+        stiffness from a table, a seabed that is not flat below a `catenary`, free bodies or rods
+        at the surface, or stiff lines that a rod clamps. A line at rest lies in a way that
+        `catenary` does not know.
     """
     if type not in _DYNAMIC:
         raise CaseError(f"type: expected 'catenary' or 'line' instead of {type!r}")
@@ -85,26 +87,27 @@ class _Conversion:
     def run(self) -> Imported:
         deck = self.deck
         chains, junctions = find_chains(deck)
-        notes = self.out.notes
-        notes += deck.notes
+        note = self.out.note
+        for text in deck.notes:
+            note(text)
         if self.dynamic:
-            notes.append(
+            note(
                 f"lines are in water of {deck.density:g} kg/m3 (water_density); g = "
                 f"{deck.gravity:g} m/s2 in the file, the case has its own in [environment]"
             )
-            notes.append(
+            note(
                 "damping as in MoorDyn: of segments in slack ones too (damps_slack), "
                 "of the seabed on the way up too (seabed_damps_up)"
             )
         else:
-            notes.append(
+            note(
                 f"weights in water of {deck.density:g} kg/m3 with g = {deck.gravity:g} m/s2; the "
                 "case sets its own in [environment]"
             )
-        if not self.depth:
-            notes.append("no depth in the file, and no anchor: the seabed is that of the case")
+        if not self.depth and not self.out.seabed:
+            note("no depth in the file, and no anchor: the seabed is that of the case")
         elif self.assumed_depth:
-            notes.append(
+            note(
                 f"no depth down to the lowest anchor in the file: the seabed is there, at z = "
                 f"{-self.depth:g} m"
             )
@@ -116,10 +119,11 @@ class _Conversion:
             self._chain(chain)
         add_rigid_bodies(deck, self.places, self.out)
         self.places.check()
-        notes += self.places.notes()
+        for text, row in self.places.notes():
+            note(text, row.number)
         self._note_types()
         if self.dynamic and not deck.option("wavekin", 0.0):
-            self.out.notes.append("lines feel no waves, as in the file; waves = true lets them")
+            note("lines feel no waves, as in the file; waves = true lets them")
         self._note_bodies()
         self._note_rest()
         return self.out
@@ -127,13 +131,18 @@ class _Conversion:
     def _depth(self) -> tuple[float, bool]:
         """Depth of the seabed, and whether it is that of the lowest anchor, as in MoorDyn."""
         deck = self.deck
-        for key in ("wtrdpth", "seafloorfile", "bathymetry", "bathymetryfile"):
-            text = deck.options.get(key, "0")
-            if not _is_number(text) or (key != "wtrdpth" and text != "0"):
+        if bed := seabed_of(deck):
+            if not self.dynamic:
                 raise CaseError(
-                    f"{deck.file}: the seabed of {text!r} is not flat, which is not carried over; "
-                    f"take that line out of the options, and write one depth [m] as WtrDpth"
+                    f"{deck.file}: the seabed is not flat, and a line at rest has a flat one; "
+                    "import it as a dynamic line, --type line, or write one depth [m] as WtrDpth "
+                    "in place of the file"
                 )
+            self.out.seabed = bed.table()
+            self.out.notes.append(
+                "seabed: smooth between the points of the file, in MoorDyn bilinear"
+            )
+            return 0.0, False
         depth = deck.option("wtrdpth", 0.0)
         fixed = [p.place[2] for p in deck.points.values() if p.attachment == "fixed"]
         lowest = -min(fixed, default=0.0)
@@ -156,8 +165,9 @@ class _Conversion:
     def _dynamic_line(
         self, chain: Chain, label: str, a: tuple[str, Array], b: tuple[str, Array]
     ) -> None:
-        notes = self.out.notes
-        notes += note_clamps(chain, self.deck)
+        first, note = chain.lines[0].row.number, self.out.note
+        for text, row in note_clamps(chain, self.deck):
+            note(text, row.number)
         table: dict[str, Any] = {
             "type": "line",
             "name": "line" + "_".join(line.id for line in chain.lines),
@@ -170,14 +180,28 @@ class _Conversion:
         if chain.hangs:
             del table["body_b"]
             table["free_end"] = True
-            notes.append(f"{label}: point {chain.ends[1].id} is a free end, at rest at the start")
+            text = f"{label}: point {chain.ends[1].id} is a free end, at rest at the start"
+            note(text, chain.ends[1].row.number)
         if table["segments"] != [line.segments for line in chain.lines]:
-            notes.append(f"{label}: two segments in place of one, the fewest that a line has")
+            note(f"{label}: two segments in place of one, the fewest that a line has", first)
+        if "curve_strain" in table:
+            note(
+                f"{label}: tension from a table, by a smooth curve through its points that goes on "
+                "with its last slope; MoorDyn goes straight from point to point, and holds the last "
+                "tension",
+                next(line.type.row.number for line in chain.lines if line.type.curve),
+            )
         self.out.forces.append(table)
 
     def _line_at_rest(
         self, chain: Chain, label: str, a: tuple[str, Array], b: tuple[str, Array]
     ) -> None:
+        for line in chain.lines:
+            if line.type.curve:
+                raise line.row.fail(
+                    f"{label}: a line at rest has one stiffness, and type {line.type.name!r} has a "
+                    "table; import it as a dynamic line, --type line, or write a number as EA"
+                )
         on_bed = abs(a[1][2] + self.depth) <= 1e-3 * self.depth
         lies = self.depth > 0.0 and a[0] == "ground" and on_bed
         table: dict[str, Any] = {
@@ -225,9 +249,10 @@ class _Conversion:
                 f"{-self.depth:g} m, which a line at rest feels only at its anchor; import it as a "
                 "dynamic line, --type line"
             )
-        self.out.notes.append(
+        self.out.note(
             f"{label}: end A is not on the seabed, z = {-self.depth:g} m, which is not felt; it "
-            f"hangs down to z = {lowest:.4g} m where its ends are"
+            f"hangs down to z = {lowest:.4g} m where its ends are",
+            row.number,
         )
 
     def _weight(self, line: Line, density: float) -> float:
@@ -245,9 +270,10 @@ class _Conversion:
             if value
         ]
         if lost:
-            self.out.notes.append(
+            self.out.note(
                 f"point {point.id}: without {', '.join(lost)}: loads between parts of a line at "
-                "rest have weight only"
+                "rest have weight only",
+                point.row.number,
             )
 
     def _junction(self, point: Point) -> None:
@@ -272,9 +298,10 @@ class _Conversion:
         self.out.forces.append(
             {"type": "constant_load", "name": f"{name}_lift", "body": name, "force": force}
         )
-        self.out.notes.append(
+        self.out.note(
             f"point {point.id} is body {name}, with {lumped:g} kg of the segments next to it "
-            f"({name}_lift: their weight, which the lines hold)"
+            f"({name}_lift: their weight, which the lines hold)",
+            point.row.number,
         )
         if not (point.drag_area or point.added_mass * point.volume):
             return
@@ -298,7 +325,8 @@ class _Conversion:
             if self.dynamic:
                 lost, why = lost_of(line), ""
             if lost:
-                self.out.notes.append(f"line type {kind.name}: without {', '.join(lost)}{why}")
+                text = f"line type {kind.name}: without {', '.join(lost)}{why}"
+                self.out.note(text, kind.row.number)
 
     def _is_part(self, point: Point) -> bool:
         """Whether its mass and volume are in the tables of a free body."""
@@ -308,46 +336,44 @@ class _Conversion:
         for body in self.deck.bodies.values():
             if body.attachment != "fixed" and body.id not in self.places.made:
                 known = body.id in self.places.used and self.places.names[body.id]
-                self.out.notes.append(
-                    f"body {body.id}"
-                    + (f" is {known}: mass, volume and drag are those of the case" if known else
-                       ": left out, no line ends at it")
-                )  # fmt: skip
+                lost = ": left out, no line ends at it"
+                text = f" is {known}: mass, volume and drag are those of the case"
+                self.out.note(f"body {body.id}{text if known else lost}", body.row.number)
 
     def _note_rest(self) -> None:
-        deck, notes = self.deck, self.out.notes
+        deck, note = self.deck, self.out.note
         ends = {end for line in deck.lines for end in line.ends}
         for point in deck.points.values():
             if point.rod or self._is_part(point):
                 continue
             if point.id not in ends:
-                notes.append(f"point {point.id}: left out, no line ends at it")
+                note(f"point {point.id}: left out, no line ends at it", point.row.number)
             elif point.attachment != "free" and (point.mass or point.volume or point.drag_area):
-                notes.append(
+                note(
                     f"point {point.id}: mass {point.mass:g} kg, volume {point.volume:g} m3 and "
-                    f"drag area {point.drag_area:g} m2 left out: they are those of its body"
+                    f"drag area {point.drag_area:g} m2 left out: they are those of its body",
+                    point.row.number,
                 )
         carried = _CARRIED + (CARRIED if self.dynamic else ())
         if not self.dynamic and deck.option("frictioncoefficient", 0.0):
-            notes.append(
+            note(
                 f"friction of the seabed {deck.options['frictioncoefficient']}: left out; it acts "
-                "against a velocity in MoorDyn, and is zero at rest"
+                "against a velocity in MoorDyn, and is zero at rest",
+                deck.rows["frictioncoefficient"].number,
             )
             carried += ("frictioncoefficient",)
-        others = [f"{key} {value}" for key, value in deck.options.items() if key not in carried]
+        unused = [key for key in deck.options if key not in carried]
+        others = [f"{key} {deck.options[key]}" for key in unused]
         if others:
-            notes.append(f"options of dynamic lines, not used: {', '.join(others)}")
-        for name, count in deck.unread.items():
-            notes.append(f"section {name.upper()}: left out ({count} lines)")
-        if deck.outputs:
-            notes.append(
-                f"outputs: left out ({', '.join(deck.outputs)}); forces/NAME/tension is at end B "
-                "(FAIRTEN), tension_anchor at end A (ANCHTEN)"
+            note(
+                f"options of dynamic lines, not used: {', '.join(others)}",
+                deck.rows[unused[0]].number,
             )
-
-
-def _is_number(text: str) -> bool:
-    try:
-        return math.isfinite(float(text))
-    except ValueError:
-        return False
+        for name, rows in deck.unread.items():
+            note(f"section {name.upper()}: left out ({len(rows)} lines)", rows[0].number)
+        if deck.outputs:
+            note(
+                f"outputs: left out ({', '.join(deck.outputs)}); forces/NAME/tension is at end B "
+                "(FAIRTEN), tension_anchor at end A (ANCHTEN)",
+                deck.rows["outputs"].number,
+            )

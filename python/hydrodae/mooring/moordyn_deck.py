@@ -43,8 +43,10 @@ class Type:
     name: str
     diameter: float  #: of a cylinder of the same volume [m]
     mass: float  #: [kg/m]
-    stiffness: float  #: EA [N]
+    stiffness: float  #: EA [N]; of a table: tension over strain at its end
     others: dict[str, str]  #: by the names of version 2
+    row: Row
+    curve: tuple[tuple[float, float], ...] = ()  #: of a table: strain [-] and tension [N]
 
 
 @dataclass(frozen=True)
@@ -121,7 +123,8 @@ class Deck:
     rods: dict[str, Rod] = field(default_factory=dict)
     options: dict[str, str] = field(default_factory=dict)  #: by lower-case key
     outputs: list[str] = field(default_factory=list)
-    unread: dict[str, int] = field(default_factory=dict)  #: other sections: number of lines
+    unread: dict[str, list[Row]] = field(default_factory=dict)  #: rows of other sections
+    rows: dict[str, Row] = field(default_factory=dict)  #: of options; of the first "outputs"
     notes: list[str] = field(default_factory=list)  #: on how it was read
 
     def option(self, key: str, default: float) -> float:
@@ -179,11 +182,13 @@ def read_deck(path: str | os.PathLike[str]) -> Deck:
     deck.bodies = _by_id((b.id, b.row, b) for b in map(_body, bodies.rows))
     for row in sections.get("options", Section("")).rows:
         key, value = _option(row)
-        deck.options[key] = value
+        deck.options[key], deck.rows[key] = value, row
     outputs = [word for row in sections.get("outputs", Section("")).rows for word in row.words]
     deck.outputs = [word for word in outputs if word.upper() != "END"]
     read = ("types", "points", "lines", "bodies", "rod types", "rods", "options", "outputs")
-    deck.unread = {n: len(s.rows) for n, s in sections.items() if n not in read and s.rows}
+    if deck.outputs:
+        deck.rows["outputs"] = sections["outputs"].rows[0]
+    deck.unread = {n: s.rows for n, s in sections.items() if n not in read and s.rows}
     if deck.version > 1:
         deck.notes = _other_order(sections)
     return deck
@@ -234,13 +239,7 @@ _OTHERS = ("BA", "EI", "Cd", "Ca", "CdAx", "CaAx", "Cl", "dF", "cF")
 
 def _type(row: Row) -> Type:
     static, *dynamic = row.text("EA").split("|")
-    try:
-        float(static)
-    except ValueError:
-        raise row.fail(
-            f"line type {row.text('name')!r}: the stiffness {static!r} is a file; a line takes one "
-            "number EA [N]: write the slope of its tension over strain at the mean tension"
-        ) from None
+    curve = () if is_number(static) or dynamic else _curve(row, static)
     further = {key: row.text(key) for key in _OTHERS if row.has(key)}
     further["BA"], *viscous = further["BA"].split("|")
     if dynamic:
@@ -251,9 +250,42 @@ def _type(row: Row) -> Type:
         row.text("name"),
         row.value("diameter", "the diameter"),
         row.value("mass", "the mass per length"),
-        number(row, static, "the stiffness EA"),
+        curve[-1][1] / curve[-1][0] if curve else number(row, static, "the stiffness EA"),
         further,
+        row,
+        curve,
     )
+
+
+def _curve(row: Row, name: str) -> tuple[tuple[float, float], ...]:
+    """Read the file of a line type: rows of strain [-] and tension [N] below a head."""
+    file = row.file.parent / name
+    label = f"line type {row.text('name')!r}: the table {name!r} of strain and tension"
+    try:
+        rows = file.read_text().splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise row.fail(f"{label} cannot be read: {error}") from None
+    found = list[tuple[float, float]]()
+    for place, text in enumerate(rows, start=1):
+        words = text.replace(",", " ").split()
+        if len(words) == 2 and all(is_number(word) for word in words):
+            found.append((float(words[0]), float(words[1])))
+        elif words and found:
+            raise CaseError(
+                f"{file}:{place}: {text.strip()!r}: expected a strain and a tension [N]"
+            )
+    if len(found) < 2 or found[0] != (0.0, 0.0):
+        raise row.fail(f"{label} needs two rows or more, the first of them '0 0'")
+    return tuple(found)
+
+
+def is_number(text: str) -> bool:
+    """Whether this is a number."""
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def _point(row: Row) -> Point:

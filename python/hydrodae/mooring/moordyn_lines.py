@@ -48,6 +48,7 @@ def line_keys(deck: Deck, chain: Chain, depth: float) -> dict[str, Any]:
         "stiffness": [line.type.stiffness for line in chain.lines],
         "damping": [_damping(line) for line in chain.lines],
     }
+    table |= _curve(chain, table)
     if table["segments"] == [1]:
         table["segments"] = [2]  # the fewest
     for key, name in _COEFFICIENTS.items():
@@ -75,6 +76,27 @@ def line_keys(deck: Deck, chain: Chain, depth: float) -> dict[str, Any]:
     if not deck.option("wavekin", 0.0):
         table["waves"] = False
     return {key: value for key, value in table.items() if value != []}
+
+
+def _curve(chain: Chain, table: dict[str, Any]) -> dict[str, Any]:
+    """Return the curve of the parts whose types have a table; it takes their stiffness."""
+    curved = [i for i, line in enumerate(chain.lines) if line.type.curve]
+    if not curved:
+        return {}
+    curves = {chain.lines[i].type.curve for i in curved}
+    if len(curves) > 1:
+        raise chain.lines[curved[1]].row.fail(
+            "lines in series with two tables of strain and tension: a line takes one; give one of "
+            "the types a number as EA, its slope at the mean tension"
+        )
+    keys: dict[str, Any] = {}
+    keys["curve_strain"], keys["curve_tension"] = (list(axis) for axis in zip(*curves.pop()))
+    if len(curved) == len(chain.lines):
+        keys["stiffness"] = []
+        return keys
+    keys["curve_parts"] = [i + 1 for i in curved]
+    keys["stiffness"] = [0.0 if i in curved else EA for i, EA in enumerate(table["stiffness"])]
+    return keys
 
 
 def lost_of(line: Line) -> list[str]:

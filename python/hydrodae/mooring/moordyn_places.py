@@ -9,6 +9,7 @@ import numpy as np
 
 from hydrodae.errors import CaseError
 from hydrodae.mooring.moordyn_deck import Deck, Point
+from hydrodae.mooring.moordyn_sections import Row
 from hydrodae.support.arrays import Array
 
 #: What --body and --at say of coupled points.
@@ -46,7 +47,7 @@ class Places:
     deck: Deck
     names: dict[str, str]
     at: dict[str, Pose]
-    used: set[str] = field(default_factory=set)
+    used: dict[str, Row] = field(default_factory=dict)  #: first row of each key
     made: set[str] = field(default_factory=set)  #: free bodies and rods with tables here
 
     def __post_init__(self) -> None:
@@ -85,7 +86,7 @@ class Places:
                 f'{key}: where is it? Say --at {key}=X,Y,Z, in Python at={{"{key}": (X, Y, Z)}}: '
                 "the origin of its points in the reference pose of the case [m]"
             )
-        self.used.add(key)
+        self.used.setdefault(key, point.row)
         return self.names[key], self.pose(key).of(point.place)
 
     def pose(self, key: str) -> Pose:
@@ -104,7 +105,7 @@ class Places:
             There is one of them.
         """
         for key in self.at:
-            if key in self.used | self.made:
+            if key in self.used or key in self.made:
                 continue
             others = ", ".join(f"--at {name}=X,Y,Z" for name in sorted(self.used) if name)
             what = f"{key!r}" if key else "coupled points"
@@ -117,18 +118,19 @@ class Places:
             if key and key not in self.used and key not in self.deck.bodies and not rod:
                 raise CaseError(f"{self.deck.file}: no body {key!r} in the file")
 
-    def notes(self) -> list[str]:
-        """Say where points are taken to be."""
+    def notes(self) -> list[tuple[str, Row]]:
+        """Say, with the first row of each, where points are taken to be."""
         out = []
         for key in sorted(self.used):
             name, at = self.names[key], self.pose(key)
             what = f"body {key} of the file" if key in self.deck.bodies else key or "coupled points"
             why = ", as in the file" if key in self.deck.bodies else ", the default"
             where = at.given + ("" if key in self.at else why)
-            out.append(
+            text = (
                 f"points of {what} belong to {name}, whose reference pose has their origin at "
                 f"{where}; --at {key + '=' if key else ''}X,Y,Z[,ROLL,PITCH,YAW] moves them"
             )
+            out.append((text, self.used[key]))
         return out
 
     def _key(self, point: Point) -> str:

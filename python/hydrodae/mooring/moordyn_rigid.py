@@ -12,6 +12,7 @@ from hydrodae.mooring.imported import Imported
 from hydrodae.mooring.moordyn_chains import Chain
 from hydrodae.mooring.moordyn_deck import Body, Deck, Rod, directions
 from hydrodae.mooring.moordyn_places import Places
+from hydrodae.mooring.moordyn_sections import Row
 from hydrodae.support.arrays import Array
 
 
@@ -41,11 +42,13 @@ def add_rigid_bodies(deck: Deck, places: Places, out: Imported) -> None:
             carried = [rod for rod in deck.rods.values() if rod.attachment == f"body{key}"]
             _add(deck, places, out, f"body{key}", carried, body)
     # a rod that is held somewhere needs no load of its own, unless nothing moves it
-    held = [f"rod {rod.id}" for rod in deck.rods.values() if not _is_made(rod, places)]
+    held = [rod for rod in deck.rods.values() if not _is_made(rod, places)]
     if held:
-        out.notes.append(
-            f"{', '.join(held)}: without mass, buoyancy and drag, which are those of what holds "
-            "it, or of a body of the case; ends of lines are where it has them"
+        names = ", ".join(f"rod {rod.id}" for rod in held)
+        out.note(
+            f"{names}: without mass, buoyancy and drag, which are those of what holds it, or of a "
+            "body of the case; ends of lines are where it has them",
+            held[0].row.number,
         )
 
 
@@ -90,10 +93,12 @@ def _add(
     if body is not None and (body.drag_area or body.added_mass * body.volume):
         out.morison.append(_body_water(name, body, parts[-1].centre))
     if body is not None:
-        out.notes += _averaged(name, body)
+        for text in _averaged(name, body):
+            out.note(text, row.number)
     if rods and body is None and rods[0].attachment.endswith("pinned"):
         out.joints.append(_pin(places, rods[0], name))
-    out.notes.append(f"{name} is a rigid body with {mass:g} kg, its buoyancy and its drag")
+    text = f"{name} is a rigid body with {mass:g} kg, its buoyancy and its drag"
+    out.note(text, row.number)
 
 
 def _check_under_water(body: Body, part: _Part) -> None:
@@ -230,8 +235,8 @@ def _pin(places: Places, rod: Rod, name: str) -> dict[str, Any]:
     }
 
 
-def note_clamps(chain: Chain, deck: Deck) -> list[str]:
-    """Say where a rod clamps a line that turns freely here.
+def note_clamps(chain: Chain, deck: Deck) -> list[tuple[str, Row]]:
+    """Say with its row where a rod clamps a line that turns freely here.
 
     Raises
     ------
@@ -253,5 +258,5 @@ def note_clamps(chain: Chain, deck: Deck) -> list[str]:
                 f"{what}, and it is stiff: bending bears its weight over {reach:.3g} m; end it at "
                 "a point in place of the rod if the end may turn, or write EI = 0"
             )
-        out.append(f"{what} (bending bears its weight over {reach:.3g} m)")
+        out.append((f"{what} (bending bears its weight over {reach:.3g} m)", line.row))
     return out

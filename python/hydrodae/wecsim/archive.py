@@ -22,6 +22,10 @@ class XmlArchive:
         self.path, self.archive = path, archive
         self.left, self.read = LARGEST, set[str]()
 
+    def names(self) -> list[str]:
+        """Names of all files."""
+        return self.archive.namelist()
+
     def xml(self, name: str) -> ElementTree.Element:
         """Root element of a file.
 

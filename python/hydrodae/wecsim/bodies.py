@@ -35,7 +35,6 @@ IDLE = {
 #: Fields of effects that the kernel has another way, or not at all.
 LACKING = {
     "QTFs": "second-order forces (QTF)",
-    "variableHydro.option": "variable hydrodynamics (tables that change in the run)",
     "largeXYDisplacement.option": 'large displacements: [sea] phase = "moving" is near to it',
     "hydroStiffness": "hydroStiffness of the body; that of the database is used",
 }

@@ -25,9 +25,10 @@ from hydrodae.wecsim.functions import FUNCTIONS, FunctionFile
 from hydrodae.wecsim.hydro import find_source, read_database, with_radiation
 from hydrodae.wecsim.links import Links
 from hydrodae.wecsim.m_file import read_input
+from hydrodae.wecsim.mdl import read_mdl
 from hydrodae.wecsim.modes import Modes, read_modes
 from hydrodae.wecsim.moorings import add_mooring
-from hydrodae.wecsim.objects import InputFile
+from hydrodae.wecsim.objects import InputFile, Item
 from hydrodae.wecsim.remarks import Remarks
 from hydrodae.wecsim.sea import add_solver, add_waves, radiation_of
 from hydrodae.wecsim.sea_states import POWER_MATRIX, write_power_matrix
@@ -37,6 +38,8 @@ from hydrodae.wecsim.text import CaseText
 from hydrodae.wecsim.topology import Topology, find_topology
 
 INPUT = "wecSimInputFile.m"
+#: Readers of models by the ending of their files.
+MODELS = {".slx": read_slx, ".mdl": read_mdl}
 #: Coordinates of the database that move with each motion of a body.
 _KEEP = {"rigid": "all", "planar": "planar", "heave": "heave", "yaw": "yaw"}
 #: What these become by hand.
@@ -99,7 +102,8 @@ def convert(
     if target.exists() and (not target.is_dir() or any(target.iterdir())):
         raise CaseError(f"{target}: is there already; name a new or empty folder")
     read = read_input(_input_file(Path(source)), define)
-    model = read_slx(_model_file(read))
+    file = _model_file(read)
+    model = MODELS.get(file.suffix.lower(), read_slx)(file)
     topology = find_topology(model, read)
     conditions = find_conditions(read)
     database, radiation, why, modes = _database(read, topology)
@@ -122,12 +126,12 @@ def convert(
                 return text
 
             write_study(conditions, read, str(text), again, target)
-        elif not functions.laws:
-            write_power_matrix(str(text), target)
+        else:
+            write_power_matrix(str(text), target, FUNCTIONS if functions.laws else "")
         _unused(read)
         if functions.laws and (target / STUDY).is_file():
-            remark = f"{STUDY}: `hydrodae sweep` takes no {FUNCTIONS}; run the conditions by --set"
-            read.remarks.left_out(read.path.name, remark)
+            remark = f"{STUDY}: the laws are in {FUNCTIONS}; sweep it with --functions {FUNCTIONS}"
+            read.remarks.assumed(read.path.name, remark)
         if accept is not None:
             read.remarks.check(accept)
         text.head("missing", [str(remark) for remark in read.remarks.of("left out")])
@@ -181,11 +185,14 @@ def _model_file(read: InputFile) -> Path:
     stated = "" if simu is None else simu.text("simMechanicsFile")
     if stated.strip(".") not in ("", "slx", "*.slx"):
         path = folder / stated.replace("\\", "/")
-        return path if path.suffix else path.with_suffix(".slx")
-    found = sorted(folder.glob("*.slx"))
+        named = [path] if path.suffix else [path.with_suffix(ending) for ending in MODELS]
+        return next((file for file in named if file.is_file()), named[0])
+    found = [file for ending in MODELS for file in sorted(folder.glob(f"*{ending}"))]
     if len(found) != 1:
         names = ", ".join(path.name for path in found) or "none"
-        raise CaseError(f"{read.path}: simu.simMechanicsFile is not set; .slx beside it: {names}")
+        raise CaseError(
+            f"{read.path}: simu.simMechanicsFile is not set; .slx and .mdl beside it: {names}"
+        )
     read.remarks.assumed(read.path.name, f"model {found[0].name}, the only one beside it")
     return found[0]
 
@@ -202,10 +209,7 @@ def _database(
         if item is None or item.whole("nonHydro") or not stated:
             continue
         if isinstance(stated, list):
-            stated = stated[0]
-            remark = f"{item.title}: variable hydrodynamics; the first database is taken, and "
-            remark += "[[pose_table]] blends those of several poses (docs/cases.md)"
-            read.remarks.left_out(read.place(item.line), remark)
+            stated = _initial(item, stated, read)
         wet[number] = name
         sources.setdefault(str(stated), []).append(number)
     simu = read.get("simu")
@@ -254,6 +258,26 @@ def _database(
     if frequency is not None and kind == "constant":
         keys["frequency"] = frequency
     return database, keys, why, modes
+
+
+def _initial(item: Item, files: list[Any], read: InputFile) -> Any:
+    """Database of a body with several that it starts with, as its variableHydro states it."""
+    field = "variableHydro.hydroForceIndexInitial"
+    index, place = item.whole(field, 1), read.place(item.line)
+    if not 1 <= index <= len(files):
+        raise CaseError(
+            f"{read.path.name}:{item.line_of(field)}: {item.title}.{field} is {index}, but the "
+            f"body has {len(files)} databases"
+        )
+    if item.whole("variableHydro.option") and len(files) > 1:
+        remark = f"{item.title}: variable hydrodynamics; {files[index - 1]}, with which it starts, "
+        remark += "is taken. A signal of Simulink chooses between the files in the run; where that "
+        remark += "follows a pose, [[pose_table]] blends them (docs/cases.md)"
+        read.remarks.left_out(place, remark)
+    elif len(files) > 1:
+        text = f"{item.title}: variableHydro.option is 0: {files[index - 1]} alone is taken, as "
+        read.remarks.assumed(place, text + "in WEC-Sim")
+    return files[index - 1]
 
 
 def _write(

@@ -32,6 +32,20 @@ def script(folder: Path, name: str) -> list[Statement] | None:
     return None if parts and parts[0].tokens[0].text == "function" else parts
 
 
+def function_text(folder: Path, name: str) -> str | None:
+    """Text of the function ``NAME.m``; None where there is no such function.
+
+    Raises
+    ------
+    NotEvaluated
+        It cannot be read.
+    """
+    path = folder / f"{name}.m"
+    if not path.is_file() or script(folder, name) is not None:
+        return None
+    return path.read_text(encoding="utf-8", errors="replace")
+
+
 def loaded(folder: Path, stated: Any) -> dict[str, Any]:
     """Numbers and text of a .mat file by their names, those of structures as ``a.b``.
 

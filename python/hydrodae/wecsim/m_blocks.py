@@ -74,11 +74,12 @@ def assignment(tokens: tuple[Token, ...]) -> int | None:
 
 
 def several_names(tokens: tuple[Token, ...]) -> list[str]:
-    """Names of ``[X, Y]`` on the left; empty where it is something else."""
+    """Names of ``[X, ~]`` on the left; empty where it is something else."""
     if len(tokens) < 3 or tokens[0].text != "[" or tokens[-1].text != "]":
         return []
     inside = [token for token in tokens[1:-1] if token.text != ","]
-    return [t.text for t in inside] if all(t.kind == "name" for t in inside) else []
+    named = all(t.kind == "name" or t.text == "~" for t in inside)
+    return [t.text for t in inside] if named else []
 
 
 def target_of(tokens: tuple[Token, ...]) -> tuple[str, list[str]]:

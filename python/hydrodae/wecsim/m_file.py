@@ -10,7 +10,7 @@ import numpy as np
 
 from hydrodae.errors import CaseError
 from hydrodae.wecsim.m_arrays import elements, meshgrid, with_elements
-from hydrodae.wecsim.m_beside import loaded, script
+from hydrodae.wecsim.m_beside import function_text, loaded, script
 from hydrodae.wecsim.m_blocks import (
     OPENERS,
     assignment,
@@ -26,6 +26,8 @@ from hydrodae.wecsim.m_blocks import (
     without_first,
     without_newlines,
 )
+from hydrodae.wecsim.m_calls import called, extreme
+from hydrodae.wecsim.m_python import head_of
 from hydrodae.wecsim.m_text import NotEvaluated, Statement, Token, statements, understood
 from hydrodae.wecsim.m_values import Expression
 from hydrodae.wecsim.objects import Entry, InputFile, Item
@@ -120,6 +122,14 @@ def leading_variables(path: Path) -> dict[str, Entry]:
     read = InputFile(path)
     _Run(read).block(body[:end], 0, True)
     return read.variables
+
+
+#: Functions with several results.
+_SEVERAL = {
+    "meshgrid": meshgrid,
+    "min": lambda values: extreme("min", values),
+    "max": lambda values: extreme("max", values),
+}
 
 
 class _Run:
@@ -273,10 +283,12 @@ class _Run:
         """Carry out an assignment, its = at token `equals`."""
         left, right = statement.tokens[:equals], statement.tokens[equals + 1 :]
         line = self._line(statement)
-        if (names := several_names(left)) and [t.text for t in right[:2]] == ["meshgrid", "("]:
-            made = meshgrid([self._value(tokens) for tokens in split_arguments(right[2:-1])])
+        several = _SEVERAL.get(right[0].text) if [t.text for t in right[1:2]] == ["("] else None
+        if several is not None and (names := several_names(left)):
+            made = several([self._value(tokens) for tokens in split_arguments(right[2:-1])])
             for name, value in zip(names, made, strict=False):
-                self._variable(name, [], value, line)
+                if name != "~":
+                    self._variable(name, [], value, line)
             return
         name, path = target_of(left)
         constructor = right[0].text if right and right[0].kind == "name" else ""
@@ -353,7 +365,16 @@ class _Run:
             self.read.variables[name] = Entry(value, line)
 
     def _value(self, tokens: tuple[Token, ...]) -> Any:
-        return Expression(tokens, self._look_up).value()
+        return Expression(tokens, self._look_up, self._function).value()
+
+    def _function(self, name: str, values: list[Any]) -> Any:
+        """Value of a function beside the input file, or of MATLAB."""
+        text = function_text(self.read.path.parent, name)
+        if text is not None:
+            return result_of(text, values, self.read.path.parent / f"{name}.m")
+        if name == "exist" and len(values) == 2:
+            return float(values[0] in self.read.variables)
+        return called(name, values, self._function)
 
     def _look_up(self, name: str, path: tuple[str, ...]) -> Any:
         parts = list(path)
@@ -402,6 +423,36 @@ def assign(read: InputFile, target: str, value: Any) -> None:
         run._set(name, path, value, 0)
     else:
         run._variable(name, path, value, 0)
+
+
+def result_of(script: str, values: list[Any], path: Path) -> Any:
+    """Value of a function of MATLAB with one result, which sees its arguments alone.
+
+    Parameters
+    ----------
+    script : str
+        Its text.
+    values : list
+        Of its arguments.
+    path : Path
+        Its file; functions that it calls stand beside it.
+
+    Raises
+    ------
+    NotEvaluated
+        A statement is not understood, or it has other arguments.
+    """
+    output, names = head_of(script)
+    if len(names) != len(values):
+        raise NotEvaluated(f"{path.name} with {len(values)} arguments")
+    scope = InputFile(path)
+    scope.variables = {name: Entry(value, 0) for name, value in zip(names, values, strict=True)}
+    _Run(scope).block(statements(script)[1:], 0, True)
+    if scope.remarks.items:
+        raise NotEvaluated(str(scope.remarks.items[0]))
+    if output not in scope.variables:
+        raise NotEvaluated(f"{path.name} sets no {output}")
+    return scope.variables[output].value
 
 
 def evaluate(read: InputFile, text: str) -> Any:

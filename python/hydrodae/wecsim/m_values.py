@@ -65,14 +65,20 @@ _OPERATIONS: dict[str, Callable[[Any, Any], Any]] = {
     "&&": lambda a, b: bool(np.all(a)) and bool(np.all(b)),
     "||": lambda a, b: bool(np.all(a)) or bool(np.all(b)),
 }
+#: Operators by their precedence in MATLAB, the lowest first.
 _LEVELS = (
-    ("||", "|"),
-    ("&&", "&"),
+    ("||",),
+    ("&&",),
+    ("|",),
+    ("&",),
     ("==", "~=", "!=", "<", ">", "<=", ">="),
     (":",),
     ("+", "-"),
     ("*", "/", ".*", "./"),
 )
+_SUM = _LEVELS.index(("+", "-"))
+#: The left operand that decides alone: MATLAB does not evaluate the right one then.
+_DECIDES = {"||": True, "&&": False}
 
 
 def sized(*shape: float) -> None:
@@ -104,6 +110,12 @@ def plain(value: Any) -> Any:
     return value
 
 
+class Handle(str):
+    """A function that an argument names: ``@num2str``."""
+
+    __slots__ = ()
+
+
 class Expression:
     """Evaluates tokens of one expression.
 
@@ -113,13 +125,19 @@ class Expression:
     look_up : function
         Value of a name with its indices and fields, given as tokens read so far:
         ``look_up(name, path)``; raises NotEvaluated where there is none.
+    call : function
+        Value of a function by its name and its arguments; raises NotEvaluated where it is unknown.
     """
 
     def __init__(
-        self, tokens: tuple[Token, ...], look_up: Callable[[str, tuple[str, ...]], Any]
+        self,
+        tokens: tuple[Token, ...],
+        look_up: Callable[[str, tuple[str, ...]], Any],
+        call: Callable[[str, list[Any]], Any],
     ) -> None:
-        self.tokens, self.look_up, self.at = tokens, look_up, 0
+        self.tokens, self.look_up, self.call, self.at = tokens, look_up, call, 0
         self.rows = 0  # depth of brackets in which white space separates
+        self.skipped = 0  # depth of operands that are read without their values
 
     def value(self) -> Any:
         """Evaluate all; whatever is left over is not understood."""
@@ -150,8 +168,15 @@ class Expression:
             if token.text == ":":
                 left = self._range(left, self._level(level + 1))
                 continue
-            left = _combine(token.text, left, self._level(level + 1))
+            decided = not self.skipped and _is_decided(token.text, left)
+            self.skipped += decided
+            right = self._level(level + 1)
+            self.skipped -= decided
+            left = float(_DECIDES[token.text]) if decided else self._of(token.text, left, right)
         return left
+
+    def _of(self, operator: str, left: Any, right: Any) -> Any:
+        return 0.0 if self.skipped else _combine(operator, left, right)
 
     def _starts_element(self, token: Token) -> bool:
         """Within brackets, "1 -2" is two elements and "1 - 2" one."""
@@ -163,7 +188,9 @@ class Expression:
     def _range(self, first: Any, second: Any) -> Any:
         step, last = 1.0, second
         if self._take(":"):
-            step, last = second, self._level(4)
+            step, last = second, self._level(_SUM)
+        if self.skipped:
+            return 0.0
         first, step, last = (float(_number(value)) for value in (first, step, last))
         length = (last - first) / step + 1e-10 if step else -1.0
         sized(length)
@@ -180,7 +207,7 @@ class Expression:
         token = self._peek()
         if token is not None and token.text in ("^", ".^") and token.kind == "operator":
             self.at += 1
-            return _combine(token.text, base, self._unary())
+            return self._of(token.text, base, self._unary())
         return base
 
     def _postfix(self) -> Any:
@@ -209,6 +236,9 @@ class Expression:
             self.rows = rows
             self._expect(")")
             return value
+        if token.text == "@" and (named := self._peek()) is not None and named.kind == "name":
+            self.at += 1
+            return Handle(named.text)
         if token.text in "[{":
             return self._bracket("]" if token.text == "[" else "}")
         raise NotEvaluated(f"{token.text!r} is not understood here")
@@ -240,13 +270,15 @@ class Expression:
                 self.at += 2
             else:
                 break
+        if self.skipped:
+            return 0.0
         try:
             return self.look_up(name, tuple(path))
         except NotEvaluated:
             if name in _CONSTANTS and not path:
                 return _CONSTANTS[name]
             if len(path) <= 1 and (arguments is not None) == bool(path):
-                return _function(name, arguments or [])
+                return self.call(name, arguments or [])
             raise
 
     def _is_field(self) -> bool:
@@ -266,7 +298,7 @@ class Expression:
             elif not self._take(","):
                 rows[-1].append(self._level(0))
         self.rows -= 1
-        rows = [row for row in rows if row]
+        rows = [row for row in rows if row and not self.skipped]
         if end == "}":
             return [plain(value) for row in rows for value in row]
         return _matrix(rows)
@@ -303,6 +335,11 @@ def _number(value: Any) -> Any:
     if isinstance(value, str | list):
         raise NotEvaluated("a number is needed")
     return value
+
+
+def _is_decided(operator: str, left: Any) -> bool:
+    """Whether a logical operation has its value without the right operand."""
+    return operator in _DECIDES and bool(np.all(_number(left))) is _DECIDES[operator]
 
 
 def _combine(operator: str, left: Any, right: Any) -> Any:
@@ -344,8 +381,14 @@ def _square(sizes: list[Any]) -> tuple[int, int]:
     return max(int(shape[0]), 0), max(int(shape[-1]), 0)
 
 
-def _function(name: str, values: list[Any]) -> Any:
-    """Value of a function of MATLAB that is known here."""
+def function_value(name: str, values: list[Any]) -> Any:
+    """Value of a function of numbers or text that is known here.
+
+    Raises
+    ------
+    NotEvaluated
+        It is not known, or its arguments are others than it takes here.
+    """
     if name in ("zeros", "ones") and len(values) <= 2:
         return np.full(_square(values), float(name == "ones"))
     if name == "eye" and len(values) <= 2:

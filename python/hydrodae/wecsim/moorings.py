@@ -97,8 +97,8 @@ def _moordyn(text: CaseText, item: Item, body: int, bodies: Bodies, read: InputF
         read.remarks.left_out(place, f"{item.title}: {error}", "mooring")
         return
     text.lines += ["", *made.to_toml().rstrip().splitlines()]
-    for note in made.notes:
-        read.remarks.assumed(path.name, note)
+    for note in made.notes:  # each below its own file and line
+        read.remarks.assumed(*note.split(": ", 1))
     read.remarks.assumed(
         place,
         f"{item.title}: dynamic lines (`line`); `hydrodae mooring import --type catenary` makes "

@@ -11,7 +11,8 @@ POWER_MATRIX = "power_matrix.toml"
 HEIGHTS, PERIODS = (0.5, 1.0, 1.5), (0.75, 1.0, 1.25, 1.5)
 
 _TEXT = """\
-# Mean power with its interval in sea states about that of the case: hydrodae sweep {file}
+# Mean power with its interval in sea states about that of the case:
+#   hydrodae sweep {file}{functions}
 # It goes on where it stopped. Annual energy, loads and fatigue: docs/sweeps.md
 case = "case.toml"
 over = ["wave.{name}.seed"]
@@ -23,7 +24,7 @@ over = ["wave.{name}.seed"]
 """
 
 
-def write_power_matrix(base: str, target: Path) -> None:
+def write_power_matrix(base: str, target: Path, functions: str) -> None:
     """Write the study if the sea of the case is one spectrum.
 
     Parameters
@@ -32,6 +33,8 @@ def write_power_matrix(base: str, target: Path) -> None:
         The case.
     target : Path
         Its folder.
+    functions : str
+        Name of the file with the laws of the case, empty without.
     """
     waves = tomllib.loads(base).get("wave", [])
     if len(waves) != 1 or not {"significant_height", "peak_period"} <= set(waves[0]):
@@ -39,6 +42,7 @@ def write_power_matrix(base: str, target: Path) -> None:
     (wave,) = waves
     text = _TEXT.format(
         file=POWER_MATRIX,
+        functions=functions and f" --functions {functions}",
         name=wave["name"],
         heights=[round(part * wave["significant_height"], 6) for part in HEIGHTS],
         periods=[round(part * wave["peak_period"], 6) for part in PERIODS],

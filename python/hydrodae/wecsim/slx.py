@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
+from typing import Protocol
 from xml.etree import ElementTree
 
 from hydrodae.errors import CaseError
-from hydrodae.wecsim.archive import XmlArchive, opened
+from hydrodae.wecsim.archive import opened
 
 #: Joints of Simscape, and the constraint of WEC-Sim that each is the core of.
 _JOINTS = {
@@ -20,6 +21,9 @@ _JOINTS = {
     "sm_lib/Joints/Spherical Joint": "Spherical",
     "sm_lib/Joints/Universal Joint": "Universal",
 }
+
+#: Names of files within an archive: of the block diagram, and of a chart by its number.
+BLOCKS, CHART = "simulink/blockdiagram.xml", "simulink/stateflow/chart_{}.xml"
 
 Port = tuple[str, str, str]  # path of the system, block, port such as rconn:1
 
@@ -89,12 +93,32 @@ def read_slx(path: Path) -> Model:
     Raises
     ------
     CaseError
-        There is no such file, or it is no .slx file (an old .mdl file: save it as .slx).
+        There is no such file, or it is no .slx file.
     """
-    hint = "; an .mdl file? save it as .slx" if path.suffix == ".mdl" else ""
+    with opened(path, ".slx file of Simulink") as archive:
+        return read_model(path, archive)
+
+
+class Files(Protocol):
+    """Files of XML of a model, by their names in an .slx archive."""
+
+    def names(self) -> list[str]:
+        """All files."""
+
+    def xml(self, name: str) -> ElementTree.Element:
+        """Root element of a file."""
+
+
+def read_model(path: Path, files: Files) -> Model:
+    """Read the topology of a model from its files.
+
+    Raises
+    ------
+    CaseError
+        They are damaged.
+    """
     try:
-        with opened(path, f".slx file of Simulink{hint}") as archive:
-            return _Reader(path, archive).run()
+        return _Reader(path, files).run()
     except CaseError:
         raise
     except RecursionError:
@@ -108,15 +132,15 @@ def _values(element: ElementTree.Element) -> dict[str, str]:
 
 
 class _Reader:
-    def __init__(self, path: Path, archive: XmlArchive) -> None:
-        self.path, self.archive = path, archive
+    def __init__(self, path: Path, files: Files) -> None:
+        self.path, self.files = path, files
         self.parents: dict[Port, Port] = {}
         self.blocks: dict[tuple[str, str], Block] = {}
         self.ports: list[Port] = []
         self.signals: list[tuple[Port, Port]] = []
 
     def run(self) -> Model:
-        root = self.archive.xml("simulink/blockdiagram.xml")
+        root = self.files.xml(BLOCKS)
         model = root.find("Model")
         model = root.find("Library") if model is None else model
         system = None if model is None else model.find("System")
@@ -132,9 +156,9 @@ class _Reader:
 
     def _functions(self) -> dict[str, str]:
         found = {}
-        for name in self.archive.archive.namelist():
-            if re.fullmatch(r"simulink/stateflow/chart_\d+\.xml", name):
-                chart = self.archive.xml(name)
+        for name in self.files.names():
+            if re.fullmatch(CHART.format(r"\d+"), name):
+                chart = self.files.xml(name)
                 title = next((p.text or "" for p in chart.findall("P[@Name='name']")), name)
                 for p in chart.iter("P"):
                     if p.get("Name") == "script":
@@ -147,7 +171,7 @@ class _Reader:
         if reference is None:
             return system, folder
         home = folder if folder.endswith("systems") else f"{folder}/systems"
-        return self.archive.xml(str(PurePosixPath(home) / f"{reference}.xml")), home
+        return self.files.xml(str(PurePosixPath(home) / f"{reference}.xml")), home
 
     def _system(
         self,

@@ -20,6 +20,13 @@ line::LineModel random_line(int n, bool bends, bool free_end, int options) {
   m.bends = bends;
   m.free_end = free_end;
   m.bed = -depth;
+  if ((options & 32) != 0) {
+    const std::vector<double> x = {-5.0, 4.0, 11.0, 30.0}, y = {-2.0, 1.0, 6.0};
+    MatrixX z(4, 3);
+    z << -51.0, -50.0, -52.0, -50.5, -51.5, -49.0, -50.0, -50.5, -48.0, -40.0, -45.0, -46.0;
+    m.surface = std::make_shared<const SmoothTable>(x, y, z);
+    m.bed = m.surface->top();
+  }
   m.damps_slack = (options & 1) != 0;
   m.bed_damps_up = (options & 2) != 0;
   for (int k = 0; k < n; ++k)
@@ -94,7 +101,7 @@ TEST_CASE("a line has the same forces on numbers and on dual numbers, as node by
       const line::LineNode& node = m.nodes[static_cast<std::size_t>(i)];
       const Vector3 still = Vector3::Zero();
       Vector3 force =
-          bed_force<double>(m, node, at.place(i), at.velocity(i)) +
+          bed_force<double>(m, node, bed_contact<double>(m, node, at.place(i)), at.velocity(i)) +
           water_force<double>(node, node_water<double>(at, sea, 1.0, i), at.velocity(i), still);
       force[2] -= node.mass * m.gravity;
       if (i < n && i != parted)
@@ -102,6 +109,55 @@ TEST_CASE("a line has the same forces on numbers and on dual numbers, as node by
       if (i > 0 && i - 1 != parted)
         force -= segment_pull<double>(at, i - 1).tension * segment_pull<double>(at, i - 1).e;
       REQUIRE((arrays.force(i) - force).norm() <= 1e-11 * (1e3 + force.norm()));
+    }
+  }
+}
+
+TEST_CASE("the derivatives of a line on a bed with slopes are those of dual numbers") {
+  std::mt19937 generator(2);
+  std::uniform_real_distribution<double> random(-1.0, 1.0);
+  sea::WaveField sea;
+  sea.depth = depth;
+  for (int run = 0; run < 64; ++run) {
+    CAPTURE(run);
+    const int n = 5;
+    line::LineModel m = random_line(n, (run & 4) != 0, (run & 8) != 0, 32 + (run & 3));
+    m.wet = false; // the bed alone, without the inverse mass of the water
+    const auto w = static_cast<std::size_t>(3 * m.n_points()),
+               n_z = static_cast<std::size_t>(6 * m.n_unknown());
+    std::vector<double> in(2 * w + n_z), load(w), rates(n_z);
+    const auto place = [&](int i) {
+      const double x = -6.0 + 3.0 * i + random(generator), y = 2.0 + 4.0 * random(generator);
+      return Vector3(x, y, m.surface->at(x, y).value + 0.1 + 0.02 * random(generator));
+    };
+    for (double& value : in)
+      value = random(generator);
+    for (int end = 0; end < m.n_points(); ++end)
+      Eigen::Map<Vector3>(in.data() + 3 * end) = place(end == 0 ? 0 : n);
+    for (int i = 1; i <= m.n_unknown(); ++i)
+      Eigen::Map<Vector3>(in.data() + 2 * w + 6 * static_cast<std::size_t>(i - 1)) = place(i);
+    const line::LineTable table(m);
+    line::LineArrays<double> arrays;
+    const line::LineView<double> at{m, in.data(), in.data() + w, in.data() + 2 * w};
+    evaluate_line(table, at, sea, 0.0, arrays, load.data(), rates.data());
+    const auto pattern = line::line_sparsity(m);
+    std::vector<double> values(pattern.size());
+    line::LineBlocks blocks;
+    line_jacobian(at, sea, 0.0, rates.data(), blocks, values.data());
+    MatrixX found = MatrixX::Zero(static_cast<Index>(w + n_z), static_cast<Index>(in.size()));
+    for (std::size_t k = 0; k < pattern.size(); ++k)
+      found(pattern[k][0], pattern[k][1]) = values[k];
+    line::LineArrays<Dual> dual_arrays;
+    for (std::size_t column = 0; column < in.size(); ++column) {
+      std::vector<Dual> x(in.begin(), in.end()), dual_load(w), dual_rates(n_z);
+      x[column].b = 1.0;
+      evaluate_line(table, line::LineView<Dual>{m, x.data(), x.data() + w, x.data() + 2 * w}, sea,
+                    0.0, dual_arrays, dual_load.data(), dual_rates.data());
+      for (std::size_t row = 0; row < w + n_z; ++row) {
+        const double exact = row < w ? dual_load[row].b : dual_rates[row - w].b;
+        REQUIRE(std::abs(found(static_cast<Index>(row), static_cast<Index>(column)) - exact) <=
+                1e-11 * (1e5 + std::abs(exact)));
+      }
     }
   }
 }

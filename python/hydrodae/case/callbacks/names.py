@@ -63,8 +63,8 @@ def check_names(
         if name not in given:
             raise CaseError(
                 f"{owner} {name!r} is a Python function, which nobody gave; run the case as "
-                f'hydrodae.run(case, {argument}={{"{name}": function}}), or with '
-                "`hydrodae run CASE --functions FILE.py`"
+                f'hydrodae.run(case, {argument}={{"{name}": function}}), or give `hydrodae run` or '
+                "`hydrodae sweep` the option --functions FILE.py"
             )
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from hydrodae.case import Case
+from hydrodae.case.callbacks.files import FunctionFile
 from hydrodae.case.case import CaseLike, read_case
 from hydrodae.errors import CaseError
 from hydrodae.linear import without_memory
@@ -23,7 +24,7 @@ __all__ = ["Gradient", "Objective", "gradient", "objective"]
 
 Keys = str | Sequence[str]
 
-RUNGS: dict[str, Callable[[Case, Quantity, Sequence[Parameter]], Found]] = {
+RUNGS: dict[str, Callable[..., Found]] = {
     "frequency": linear_gradient,
     "spectral": spectral_gradient,
     "time": run_gradient,
@@ -130,7 +131,7 @@ def gradient(
     """
     known = _read(case, set, rung)
     found = [read_parameter(known, keys) for keys in parameters]
-    return _gradient(known, quantity(of, statistic, component, start), found, rung)
+    return _gradient(known, quantity(of, statistic, component, start), found, rung, None)
 
 
 def _read(case: CaseLike, set: Mapping[str, Any] | None, rung: str) -> Case:
@@ -139,9 +140,16 @@ def _read(case: CaseLike, set: Mapping[str, Any] | None, rung: str) -> Case:
     return read_case(case, set) if rung == "time" else without_memory(case, set)[0]
 
 
-def _gradient(case: Case, what: Quantity, parameters: Sequence[Parameter], rung: str) -> Gradient:
+def _gradient(
+    case: Case,
+    what: Quantity,
+    parameters: Sequence[Parameter],
+    rung: str,
+    functions: FunctionFile | None,
+) -> Gradient:
     require_smooth(case, parameters, rung)
-    found = RUNGS[rung](case, what, parameters)
+    called = {} if functions is None else {"functions": functions}
+    found = RUNGS[rung](case, what, parameters, **called)
     names = tuple(parameter.name for parameter in parameters)
     at = np.array([parameter.value for parameter in parameters])
     return Gradient(
@@ -161,13 +169,21 @@ class Objective:
         As `objective` makes them.
     sign : float
         -1 to maximise.
+    functions : FunctionFile, optional
+        That runs call.
     """
 
     def __init__(
-        self, case: Case, what: Quantity, parameters: Sequence[Parameter], rung: str, sign: float
+        self,
+        case: Case,
+        what: Quantity,
+        parameters: Sequence[Parameter],
+        rung: str,
+        sign: float,
+        functions: FunctionFile | None = None,
     ) -> None:
         self.case, self.what, self.rung, self.sign = case, what, rung, sign
-        self.parameters = list(parameters)
+        self.parameters, self._functions = list(parameters), functions
         #: Values of the parameters in the case.
         self.start: Array = np.array([parameter.value for parameter in parameters])
 
@@ -175,7 +191,7 @@ class Objective:
         """Return value and gradient at x, as they are."""
         case = self.case.with_values(values_of(self.parameters, list(x)))
         moved = [read_parameter(case, _keys(p), p.name) for p in self.parameters]
-        return _gradient(case, self.what, moved, self.rung)
+        return _gradient(case, self.what, moved, self.rung, self._functions)
 
     def __call__(self, x: Sequence[float] | Array) -> tuple[float, Array]:
         """Return value and gradient at x, both with the other sign to maximise."""

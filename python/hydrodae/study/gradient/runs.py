@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from hydrodae import _core
 from hydrodae.case import Case
+from hydrodae.case.callbacks.files import FunctionFile
 from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError
 from hydrodae.simulation import run
@@ -18,7 +19,12 @@ from hydrodae.study.gradient.quantity import POWER, Found, Quantity
 FIXED = tuple(sorted(m["name"] for m in _core.methods() if m["fixes"]))
 
 
-def run_gradient(case: Case, what: Quantity, parameters: Sequence[Parameter]) -> Found:
+def run_gradient(
+    case: Case,
+    what: Quantity,
+    parameters: Sequence[Parameter],
+    functions: FunctionFile | None = None,
+) -> Found:
     """Value and gradient of a quantity of runs of a case.
 
     Internal numerical differentiation (Bock, 1981): all runs take the same fixed steps, so that
@@ -36,7 +42,7 @@ def run_gradient(case: Case, what: Quantity, parameters: Sequence[Parameter]) ->
     units: list[str] = []
 
     def value(there: Case) -> float:
-        number, unit = _measured(there, what)
+        number, unit = _measured(there, what, functions)
         units.append(unit)
         return number
 
@@ -57,9 +63,10 @@ def _check_steps(case: Case) -> None:
         )
 
 
-def _measured(case: Case, what: Quantity) -> tuple[float, str]:
+def _measured(case: Case, what: Quantity, functions: FunctionFile | None) -> tuple[float, str]:
     """The quantity of a run, and its unit."""
-    results = run(case, set={"solver.accuracy": "none"})
+    called = functions.read() if functions else {}
+    results = run(case, set={"solver.accuracy": "none"}, **called)
     if what.measure is not None:
         return what.measure(results)
     keys = [f"{POWER}.{name}" for name in what.take_offs(case)]

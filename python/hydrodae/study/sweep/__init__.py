@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping
+from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from hydrodae.case import Case
+from hydrodae.case.callbacks import join_functions
+from hydrodae.case.callbacks.files import function_file
 from hydrodae.errors import CaseError
 from hydrodae.study.sweep.batches import make_batches
 from hydrodae.study.sweep.cluster import run_points_on
@@ -14,7 +18,7 @@ from hydrodae.study.sweep.journal import Journal
 from hydrodae.study.sweep.plan import RUNG, Study, point_key, read_study
 from hydrodae.study.sweep.pool import run_points
 from hydrodae.study.sweep.rounds import Rounds
-from hydrodae.study.sweep.rungs import open_case
+from hydrodae.study.sweep.rungs import TIME, check_runs, open_case
 from hydrodae.study.sweep.table import claim, dataset, texts_of, write
 from hydrodae.study.sweep.text import text
 from hydrodae.support.version import version
@@ -32,6 +36,7 @@ def sweep(
     set: Mapping[str, Any] | None = None,
     jobs: int | None = None,
     scheduler: str | None = None,
+    functions: str | os.PathLike[str] | None = None,
     progress: Callable[[float, float], None] | None = None,
 ) -> xarray.Dataset:
     """Run every point of a study, and gather what is measured in one netCDF file.
@@ -52,6 +57,9 @@ def sweep(
     scheduler : str, optional
         Address of a scheduler of dask.distributed, such as "tcp://head:8786" (extra `cluster`): its
         workers run the points. They have to see the files of the study under the same path.
+    functions : path, optional
+        A file of Python that sets `forces`, `controllers` or `drives`, as the arguments of
+        `hydrodae.run`. It is executed again for each run, which then goes by itself.
     progress : callable, optional
         Called with the numbers of finished and of all points.
 
@@ -64,23 +72,29 @@ def sweep(
     Raises
     ------
     CaseError
-        The study or its case cannot be used, another sweep is writing the same file, or `output` is
-        a file of another kind.
+        The study, its case or the functions cannot be used, another sweep is writing the same file,
+        or `output` is a file of another kind.
     """
     if jobs is not None and jobs < 1:
         raise CaseError(f"jobs: runs at a time: expected at least 1, got {jobs}", key="jobs")
     plan = read_study(study)
+    if functions is not None:
+        check_runs(functions, plan.rungs, plan.path)
+        seen = functions if scheduler is None else Path(functions).resolve()  # by the workers too
+        plan = replace(plan, functions=function_file(seen))
     case = open_case(plan.case, set or {}, plan.rungs)
     target = claim(output)
     _check_keys(plan, case)
     record = target.with_name(target.stem + ".runs.jsonl")
+    if plan.functions is None and TIME in plan.rungs:
+        join_functions(case.scene, None, None, None)
     with Journal(record, plan.identity(case)) as journal:
         batches = make_batches(plan, journal.rows)
         done = sum(point_key(point) in journal.rows for point in plan.points)
         if batches:
             interval = plan.repetitions.interval
             left = Rounds(plan, journal.rows) if interval else iter(batches)
-            what = (set or {}, plan.measures, plan.rungs, left)
+            what = (set or {}, plan.measures, plan.rungs, plan.functions, left)
             if scheduler is None:
                 rows = run_points(
                     str(plan.case), *what, min(jobs or os.cpu_count() or 1, len(batches))

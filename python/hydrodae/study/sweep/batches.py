@@ -9,6 +9,7 @@ from typing import Any
 
 from hydrodae import _core
 from hydrodae.case import Case
+from hydrodae.case.callbacks.files import FunctionFile
 from hydrodae.errors import HydrodaeError, SolverError
 from hydrodae.study.sweep.control import Controls
 from hydrodae.study.sweep.journal import Row
@@ -16,7 +17,7 @@ from hydrodae.study.sweep.lanes import measure_lane, signals_of
 from hydrodae.study.sweep.measures import Measure, MeasureError
 from hydrodae.study.sweep.plan import RUNG, Study, point_key
 from hydrodae.study.sweep.points import Point
-from hydrodae.study.sweep.rungs import DEFAULT, run_rung, with_capture_width
+from hydrodae.study.sweep.rungs import DEFAULT, TIME, run_rung, with_capture_width
 
 #: One run in so many is made twice, so that its error is known: 5 % of the time of a study.
 VERIFIED = 20
@@ -66,7 +67,7 @@ def batches_of(plan: Study, points: Iterable[Point], left: set[str]) -> list[Bat
     shared: list[Point] = []
     groups: list[tuple[Point, ...]] = []
     for point in points:
-        if plan.rungs != DEFAULT or is_verified(point):
+        if plan.functions is not None or plan.rungs != DEFAULT or is_verified(point):
             groups.append((point,))
             continue
         shared.append(point)
@@ -84,17 +85,22 @@ def batches_of(plan: Study, points: Iterable[Point], left: set[str]) -> list[Bat
 
 
 def run_batch(
-    case: Case, measures: tuple[Measure, ...], rungs: tuple[str, ...], batch: Batch
+    case: Case,
+    measures: tuple[Measure, ...],
+    rungs: tuple[str, ...],
+    functions: FunctionFile | None,
+    batch: Batch,
 ) -> list[Row]:
     """Run a case at the points of a batch; a run that fails is a row with its reason.
 
     Raises
     ------
     CaseError
-        What is measured is not in the results: no run of the study would have it.
+        What is measured is not in the results: no run of the study would have it; or the file of
+        functions has changed.
     """
     cases: dict[str, Case] = {}
-    rows = _run_batch(case, measures, rungs, batch, cases)
+    rows = _run_batch(case, measures, rungs, functions, batch, cases)
     return _with_controls(case, batch, rows, cases) if batch.seeds else rows
 
 
@@ -115,12 +121,14 @@ def _run_batch(
     case: Case,
     measures: tuple[Measure, ...],
     rungs: tuple[str, ...],
+    functions: FunctionFile | None,
     batch: Batch,
     cases: dict[str, Case],
 ) -> list[Row]:
     """Rows of a batch; the cases at its points into `cases`, by key."""
     if len(batch.points) == 1:
-        return [run_case(case, measures, rungs, batch.points[0])]
+        alone = {"alone": "they call Python functions"} if functions and rungs == DEFAULT else {}
+        return [run_case(case, measures, rungs, batch.points[0], functions) | alone]
     rows: dict[str, Row] = {}
     together: list[tuple[Point, Case]] = []
     for point in batch.points:
@@ -142,28 +150,37 @@ def _run_batch(
 
 
 def run_case(
-    case: Case, measures: tuple[Measure, ...], rungs: tuple[str, ...], point: Point
+    case: Case,
+    measures: tuple[Measure, ...],
+    rungs: tuple[str, ...],
+    point: Point,
+    functions: FunctionFile | None = None,
 ) -> Row:
     """Run a case at a point by itself; a run that fails is a row with its reason.
 
     Raises
     ------
     CaseError
-        What is measured is not in the results: no run of the study would have it.
+        What is measured is not in the results: no run of the study would have it; or the file of
+        functions has changed.
     """
     values = {key: value for key, value in point.items() if key != RUNG}
     if not is_verified(point):
         values["solver.accuracy"] = "none"
+    rung = point.get(RUNG, rungs[0])
+    given = functions.read() if functions is not None and rung == TIME else {}
     try:
-        found = run_rung(
-            point.get(RUNG, rungs[0]), case.with_values(values), measures, rungs != DEFAULT
-        )
+        found = run_rung(rung, case.with_values(values), measures, rungs != DEFAULT, given)
     except MeasureError:
         raise
     except HydrodaeError as error:
         return _refusal(point, error)
+    except Exception as error:
+        if functions is None or not given:
+            raise
+        return _refusal(point, SolverError(functions.place(error)))
     missing = [m.name for m in measures if m.name not in found]
-    if missing and "time" not in rungs:
+    if missing and TIME not in rungs:
         raise MeasureError(
             f"[result.{missing[0]}]: no rung of the study knows it: linear models give the "
             "statistic 'std' of coordinates, joints and reactions (hydrodae rao lists them)"

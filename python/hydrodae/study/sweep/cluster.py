@@ -7,6 +7,7 @@ from functools import lru_cache
 from typing import Any
 
 from hydrodae.case import Case
+from hydrodae.case.callbacks.files import FunctionFile
 from hydrodae.errors import CaseError
 from hydrodae.study.sweep.batches import Batch, run_batch
 from hydrodae.study.sweep.journal import Row
@@ -30,6 +31,7 @@ def run_there(
     values: Mapping[str, Any],
     measures: tuple[Measure, ...],
     rungs: tuple[str, ...],
+    functions: FunctionFile | None,
     batch: Batch,
 ) -> list[Row]:
     """Run the points of a batch in a worker, which reads the case once."""
@@ -37,7 +39,7 @@ def run_there(
         case = _case(path, tuple(values.items()), rungs)
     except TypeError:  # values that cannot be compared, such as lists
         case = _case.__wrapped__(path, tuple(values.items()), rungs)
-    return run_batch(case, measures, rungs, batch)
+    return run_batch(case, measures, rungs, functions, batch)
 
 
 def run_points_on(
@@ -46,6 +48,7 @@ def run_points_on(
     values: Mapping[str, Any],
     measures: tuple[Measure, ...],
     rungs: tuple[str, ...],
+    functions: FunctionFile | None,
     batches: Iterator[Batch],
 ) -> Iterator[Row]:
     """Run the case at every point on the workers of a scheduler; rows come as they are finished.
@@ -77,9 +80,8 @@ def run_points_on(
         def submit(count: int) -> list[Any]:
             out: list[Any] = []
             while len(out) < count and (batch := next(batches, None)) is not None:
-                out.append(
-                    client.submit(run_there, path, values, measures, rungs, batch, pure=False)
-                )
+                what = (path, values, measures, rungs, functions, batch)
+                out.append(client.submit(run_there, *what, pure=False))
                 at[out[-1].key] = batch
             return out
 

@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.optimize import OptimizeResult, minimize
 
 from hydrodae.case import Case
+from hydrodae.case.callbacks.files import function_file
 from hydrodae.errors import CaseError, HydrodaeError
 from hydrodae.study.gradient import Objective
 from hydrodae.study.gradient.parameters import read_parameter, started, values_of
 from hydrodae.study.sweep.journal import Journal, Row
 from hydrodae.study.sweep.plan import point_key
 from hydrodae.study.sweep.problem import METHODS, Problem, read_problem
-from hydrodae.study.sweep.rungs import open_case
+from hydrodae.study.sweep.rungs import check_runs, open_case
 from hydrodae.study.sweep.table import claim, texts_of, write
 from hydrodae.support.arrays import Array
 from hydrodae.support.version import version
@@ -62,6 +63,7 @@ def optimise(
     output: str | os.PathLike[str],
     *,
     set: Mapping[str, Any] | None = None,
+    functions: str | os.PathLike[str] | None = None,
     progress: Callable[[float, float], None] | None = None,
 ) -> Optimum:
     """Find the best values of the parameters of a study, by gradients, within their bounds.
@@ -77,17 +79,23 @@ def optimise(
         ``X.nc``, replaced when all is done.
     set : mapping from str, optional
         Values that replace those of the case.
+    functions : path, optional
+        As in `hydrodae.sweep`.
     progress : callable, optional
         Called with the numbers of evaluations so far and at most.
 
     Raises
     ------
     CaseError
-        The study or its case cannot be used, at a point that the optimiser asks for as well.
+        The study, its case or the functions cannot be used, at a point that the optimiser asks for
+        as well.
     SolverError
         A run failed.
     """
     problem = read_problem(study)
+    if functions is not None:
+        check_runs(functions, (problem.rung,), problem.path)
+        problem = replace(problem, functions=function_file(functions))
     case = open_case(problem.case, set or {}, (problem.rung,))
     objective = _objective(problem, case)
     target = claim(output)
@@ -131,7 +139,7 @@ def _objective(problem: Problem, case: Case) -> Objective:
             )
         parameters.append(parameter)
     sign = -1.0 if problem.maximise else 1.0
-    return Objective(case, problem.quantity, parameters, problem.rung, sign)
+    return Objective(case, problem.quantity, parameters, problem.rung, sign, problem.functions)
 
 
 class _Path:

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from hydrodae.case import Case
+from hydrodae.case.callbacks.files import FunctionFile
 from hydrodae.errors import CaseError
 from hydrodae.study.sweep.journal import identity_of
 from hydrodae.study.sweep.measures import ENDS, Measure, make_measure
@@ -54,6 +55,7 @@ class Study:
     scatter: Scatter | None = None
     rungs: tuple[str, ...] = DEFAULT  #: models of the motion
     repetitions: Repetitions = field(default_factory=Repetitions)
+    functions: FunctionFile | None = None  #: that runs call
 
     def column(self, key: str) -> str:
         """The last word of a key where that is enough, else the whole key with underscores."""
@@ -65,7 +67,8 @@ class Study:
         """What the numbers of a point depend on, but for the point itself."""
         controlled = self.repetitions.control != "none"
         measured = (*self.measures, *((self.repetitions.seeds,) if controlled else ()))
-        return identity_of(case, measured, self._files_of_points(case))
+        functions = self.functions.text_of_files(case.scene) if self.functions else ""
+        return identity_of(case, measured, self._files_of_points(case) + functions)
 
     def _files_of_points(self, case: Case) -> str:
         """Lines of the files that values of the points name, as in `Scene.text_of_files`."""

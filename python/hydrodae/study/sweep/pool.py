@@ -13,6 +13,7 @@ from concurrent.futures.process import BrokenProcessPool
 from typing import Any
 
 from hydrodae.case import Case
+from hydrodae.case.callbacks.files import FunctionFile
 from hydrodae.errors import RunWarning, SolverError
 from hydrodae.study.sweep.batches import Batch, run_batch
 from hydrodae.study.sweep.journal import Row
@@ -24,6 +25,7 @@ _KILLED_WITH_PARENT = 1  # PR_SET_PDEATHSIG of prctl(2)
 _case: Case | None = None
 _measures: tuple[Measure, ...] = ()
 _rungs: tuple[str, ...] = ()
+_functions: FunctionFile | None = None
 
 
 def _begin(
@@ -32,24 +34,26 @@ def _begin(
     values: Mapping[str, Any],
     measures: tuple[Measure, ...],
     rungs: tuple[str, ...],
+    functions: FunctionFile | None,
 ) -> None:
     """Read the case once in each process; Ctrl-C is the parent's, whose end is theirs.
 
     Temporary files are in a folder of the parent, which outlives processes that it kills.
     """
-    global _case, _measures, _rungs
+    global _case, _measures, _rungs, _functions
     tempfile.tempdir = folder
     warnings.simplefilter("ignore", RunWarning)  # the table has the errors of its runs
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(_KILLED_WITH_PARENT, signal.SIGKILL)
     _case, _measures, _rungs = open_case(path, values, rungs), measures, rungs
+    _functions = functions
 
 
 def run_here(batch: Batch) -> list[Row]:
     """Run the case of this process at the points of a batch."""
     assert _case is not None
-    return run_batch(_case, _measures, _rungs, batch)
+    return run_batch(_case, _measures, _rungs, _functions, batch)
 
 
 def run_points(
@@ -57,6 +61,7 @@ def run_points(
     values: Mapping[str, Any],
     measures: tuple[Measure, ...],
     rungs: tuple[str, ...],
+    functions: FunctionFile | None,
     batches: Iterator[Batch],
     jobs: int,
 ) -> Iterator[Row]:
@@ -80,7 +85,7 @@ def run_points(
             jobs,
             mp_context=processes.context(anew=True),
             initializer=_begin,
-            initargs=(folder, path, values, measures, rungs),
+            initargs=(folder, path, values, measures, rungs, functions),
         ) as pool,
     ):
         working: set[Future[list[Row]]] = {pool.submit(run_here, first)}

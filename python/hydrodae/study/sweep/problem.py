@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from hydrodae.case import Case
+from hydrodae.case.callbacks.files import FunctionFile
 from hydrodae.errors import CaseError
 from hydrodae.study.gradient.quantity import POWER, Quantity
 from hydrodae.study.sweep.journal import identity_of
@@ -55,6 +56,8 @@ class Problem:
         Relative change of the quantity that ends the search.
     most : int
         Evaluations at most.
+    functions : FunctionFile or None
+        That runs call.
     """
 
     path: Path
@@ -67,6 +70,7 @@ class Problem:
     method: str
     tolerance: float
     most: int
+    functions: FunctionFile | None = None
 
     @property
     def name(self) -> str:
@@ -76,7 +80,8 @@ class Problem:
     def identity(self, case: Case) -> dict[str, str]:
         """What an evaluation depends on, but for the values of the parameters."""
         names = [(p.name, p.keys) for p in self.parameters]
-        return identity_of(case, (self.quantity, self.rung, names))
+        functions = self.functions.text_of_files(case.scene) if self.functions else ""
+        return identity_of(case, (self.quantity, self.rung, names), functions)
 
 
 def read_problem(path: str | os.PathLike[str]) -> Problem:

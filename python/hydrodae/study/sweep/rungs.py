@@ -23,6 +23,9 @@ from hydrodae.study.sweep.measures import ENDS, Measure, measure
 #: Name to value and unit.
 Found = dict[str, tuple[float, str]]
 
+#: The model that runs: it needs memory fits, and calls functions.
+TIME = "time"
+
 #: The coordinate of a body that a component of its position or rotation is.
 _COORDINATES = {
     "position": {"x": "surge", "y": "sway", "z": "heave"},
@@ -40,12 +43,18 @@ def open_case(
     CaseError
         The case cannot be used.
     """
-    if "time" in rungs:
+    if TIME in rungs:
         return Case(path=path, values=values)
     return without_memory(path, values)[0]
 
 
-def run_rung(rung: str, case: Case, measures: tuple[Measure, ...], timed: bool) -> Found:
+def run_rung(
+    rung: str,
+    case: Case,
+    measures: tuple[Measure, ...],
+    timed: bool,
+    functions: Mapping[str, Any] | None = None,
+) -> Found:
     """Measure a case by a model of its motion.
 
     Parameters
@@ -57,6 +66,8 @@ def run_rung(rung: str, case: Case, measures: tuple[Measure, ...], timed: bool) 
         The linear rungs know standard deviations only.
     timed : bool
         Report the wall time [s] as well.
+    functions : mapping from str, optional
+        Arguments of `hydrodae.run` with functions, for the rung "time".
 
     Raises
     ------
@@ -64,7 +75,7 @@ def run_rung(rung: str, case: Case, measures: tuple[Measure, ...], timed: bool) 
         The case cannot be run so.
     """
     start = perf_counter()
-    found = with_capture_width(case, RUNGS[rung](case, measures))
+    found = with_capture_width(case, RUNGS[rung](case, measures, **(functions or {})))
     return found | ({"wall_time": (perf_counter() - start, "s")} if timed else {})
 
 
@@ -96,8 +107,8 @@ def energy_flux(case: Case) -> float:
     return float(0.5 * rho * gravity * np.sum(waves[:, 2] ** 2 * speed))
 
 
-def _time(case: Case, measures: tuple[Measure, ...]) -> Found:
-    return measure(run(case), measures)
+def _time(case: Case, measures: tuple[Measure, ...], **functions: Any) -> Found:
+    return measure(run(case, **functions), measures)
 
 
 def _frequency(case: Case, measures: tuple[Measure, ...]) -> Found:
@@ -149,15 +160,15 @@ def unit_of(wanted: Measure) -> str:
     return f"{base}/s" if last.endswith("rate") else base
 
 
-RUNGS: dict[str, Callable[[Case, tuple[Measure, ...]], Found]] = {
+RUNGS: dict[str, Callable[..., Found]] = {
     "frequency": _frequency,
     "spectral": _spectral,
-    "time": _time,
+    TIME: _time,
 }
 
 
 #: Of a study that names none.
-DEFAULT = ("time",)
+DEFAULT = (TIME,)
 
 
 def check_rungs(rungs: object, file: object) -> tuple[str, ...]:
@@ -171,3 +182,17 @@ def check_rungs(rungs: object, file: object) -> tuple[str, ...]:
     if isinstance(rungs, list) and rungs and all(rung in RUNGS for rung in rungs):
         return tuple(rung for rung in RUNGS if rung in rungs)
     raise CaseError(f"{file}: key 'rungs': expected a list of {', '.join(RUNGS)}, got {rungs!r}")
+
+
+def check_runs(functions: object, rungs: Sequence[str], file: object) -> None:
+    """Refuse functions for rungs that call none.
+
+    Raises
+    ------
+    CaseError
+    """
+    if TIME not in rungs:
+        raise CaseError(
+            f"{file}: key 'rungs': linear models call no functions: expected {TIME!r} among them "
+            f"with --functions {functions}, got {', '.join(rungs)}"
+        )
