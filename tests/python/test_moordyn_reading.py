@@ -21,7 +21,10 @@ from hydrodae.errors import CaseError
             (" 1        2 ", " 1        R1A "),
             r"lines.txt:\d+: line 1 ends at 'R1A'.*no point or rod of the file",
         ),
-        (("583.376e6", "chain.dat"), r"lines.txt:6: line type 'chain'.*'chain.dat' is a file"),
+        (
+            ("583.376e6", "chain.dat"),
+            r"lines.txt:6: line type 'chain'.*'chain.dat'.*cannot be read",
+        ),
         (("chain       1 ", "wire        1 "), r"no line type 'wire'; there are: chain"),
         (("Body1        -3", "Turbine1     -3"), r"turbine1: which body .*--body turbine1=NAME"),
         (("Body1        -3", "Rod1         -3"), r"point 3: attachment 'Rod1'"),

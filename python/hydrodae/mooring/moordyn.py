@@ -61,9 +61,9 @@ def read_moordyn(
     ------
     CaseError
         The file cannot be read, or it has something without which its moorings would be others:
-        stiffness from a table, a seabed that is not flat below a `catenary`, free bodies or rods
-        at the surface, or stiff lines that a rod clamps. A line at rest lies in a way that
-        `catenary` does not know.
+        several tables of stiffness in one line, a table or a seabed that is not flat for a
+        `catenary`, free bodies or rods at the surface, or stiff lines that a rod clamps. A line at
+        rest lies in a way that `catenary` does not know.
     """
     if type not in _DYNAMIC:
         raise CaseError(f"type: expected 'catenary' or 'line' instead of {type!r}")
@@ -187,8 +187,8 @@ class _Conversion:
         if "curve_strain" in table:
             note(
                 f"{label}: tension from a table, by a smooth curve through its points that goes on "
-                "with its last slope; MoorDyn goes straight from point to point, and holds the last "
-                "tension",
+                "with its last slope; MoorDyn goes straight from point to point, and holds the "
+                "last tension",
                 next(line.type.row.number for line in chain.lines if line.type.curve),
             )
         self.out.forces.append(table)

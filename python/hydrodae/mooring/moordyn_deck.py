@@ -239,7 +239,13 @@ _OTHERS = ("BA", "EI", "Cd", "Ca", "CdAx", "CaAx", "Cl", "dF", "cF")
 
 def _type(row: Row) -> Type:
     static, *dynamic = row.text("EA").split("|")
-    curve = () if is_number(static) or dynamic else _curve(row, static)
+    if dynamic and not is_number(static):
+        raise row.fail(
+            f"line type {row.text('name')!r}: the stiffness {row.text('EA')!r} follows the history "
+            "of the rope; a line takes one number EA [N]: write the slope of its tension over "
+            "strain at the mean tension, or a file of strain and tension"
+        )
+    curve = () if is_number(static) else _curve(row, static)
     further = {key: row.text(key) for key in _OTHERS if row.has(key)}
     further["BA"], *viscous = further["BA"].split("|")
     if dynamic:

@@ -90,7 +90,9 @@ def _curve(chain: Chain, table: dict[str, Any]) -> dict[str, Any]:
             "the types a number as EA, its slope at the mean tension"
         )
     keys: dict[str, Any] = {}
-    keys["curve_strain"], keys["curve_tension"] = (list(axis) for axis in zip(*curves.pop()))
+    keys["curve_strain"], keys["curve_tension"] = (
+        list(axis) for axis in zip(*curves.pop(), strict=True)
+    )
     if len(curved) == len(chain.lines):
         keys["stiffness"] = []
         return keys

@@ -31,6 +31,10 @@ line::LineModel random_line(int n, bool bends, bool free_end, int options) {
   m.bed_damps_up = (options & 2) != 0;
   for (int k = 0; k < n; ++k)
     m.segments.push_back({length + 0.01 * k, 5e5, 4e3, 1e-5 + 1e-7 * k});
+  const std::vector<double> strain = {0.0, 0.01, 0.2, 0.4}, tension = {0.0, 0.005, 0.08, 0.4};
+  if ((options & 16) != 0)
+    for (std::size_t k = 1; k < m.segments.size(); k += 2)
+      m.segments[k].curve = std::make_shared<const Curve>(strain, tension);
   for (int i = 0; i <= n; ++i) {
     line::LineNode q;
     q.mass = 40.0 + i;
