@@ -40,6 +40,16 @@ def test_lines_of_a_table_alone_have_no_stiffness(tmp_path: Path) -> None:
     assert "curve_parts" not in table
 
 
+def test_a_file_is_found_from_a_folder_above(tmp_path: Path) -> None:
+    """As MoorDyn's, which runs in another folder than that of its input."""
+    (tmp_path / "tables").mkdir()
+    (tmp_path / "tables" / "rope.dat").write_text(TABLE)
+    (tmp_path / "decks").mkdir()
+    text = RM3.replace("583.376e6", "tables/rope.dat")
+    read = hydrodae.mooring.read_moordyn(written(tmp_path / "decks", text), body="spar")
+    assert read.forces[0]["curve_tension"] == [0.0, 1e6, 2e7]
+
+
 @pytest.mark.parametrize(
     ("table", "message"),
     [

@@ -12,7 +12,7 @@ from typing import TypeVar
 
 from hydrodae.errors import CaseError
 from hydrodae.mooring.moordyn_columns import LINES_BY_PLACE, OPTIONS, TYPES_BY_PLACE
-from hydrodae.mooring.moordyn_sections import Row, Section, number, read_sections
+from hydrodae.mooring.moordyn_sections import Row, Section, named_file, number, read_sections
 
 #: Other spellings of the options that are read.
 _SPELLINGS = {
@@ -265,7 +265,7 @@ def _type(row: Row) -> Type:
 
 def _curve(row: Row, name: str) -> tuple[tuple[float, float], ...]:
     """Read the file of a line type: rows of strain [-] and tension [N] below a head."""
-    file = row.file.parent / name
+    file = named_file(row.file, name)
     label = f"line type {row.text('name')!r}: the table {name!r} of strain and tension"
     try:
         rows = file.read_text().splitlines()

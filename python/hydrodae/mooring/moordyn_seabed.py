@@ -9,6 +9,7 @@ import numpy as np
 
 from hydrodae.errors import CaseError
 from hydrodae.mooring.moordyn_deck import Deck
+from hydrodae.mooring.moordyn_sections import named_file
 from hydrodae.support.arrays import Array
 
 #: Options that name a seabed file; of WtrDpth, in MoorDyn-F, the value is a depth or a file.
@@ -44,7 +45,7 @@ def seabed_of(deck: Deck) -> Seabed | None:
     named = [text for key in SEABED_OPTIONS if _is_name(text := deck.options.get(key, "0"))]
     if not named:
         return None
-    path = deck.file.parent / named[0].strip("\"'")
+    path = named_file(deck.file, named[0])
     try:
         lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
     except OSError as error:

@@ -84,6 +84,16 @@ class Section:
         return self.units is not None
 
 
+def named_file(deck: Path, name: str) -> Path:
+    """Return the path of a file that a deck names, from its folder or, where it is, one above.
+
+    MoorDyn takes it from the folder that it runs in.
+    """
+    name = name.strip("\"'")
+    above = deck.resolve().parents
+    return next((f / name for f in above if (f / name).is_file()), deck.parent / name)
+
+
 def number(row: Row, text: str, what: str) -> float:
     """Read a finite number."""
     found = _number_or_nan(text)
