@@ -32,7 +32,7 @@ struct LineSegment {
   double damping = 0.0;   ///< C [N s]
   double slack = 0.0;     ///< half the width of strain in which s bends [-]
   double strength = std::numeric_limits<double>::infinity(); ///< breaking load [N]
-  std::shared_ptr<const Curve> curve; ///< tension over EA by s [-]; null: s itself
+  std::shared_ptr<const Curve> curve = nullptr; ///< tension over EA by s [-]; null: s itself
 };
 
 struct LineNode {
