@@ -128,7 +128,7 @@ const std::vector<BadInput> bad_inputs = {
      "mean 'coordinate'? (valid: coordinate, coupler, stop)"},
     {"[[force]]\nname = \"spring\"", "[constraints]\n[[force]]\nname = \"spring\"",
      "case.toml:50:2: unknown key 'constraints' in the case; did you mean 'constraint'? (valid: "
-     "title, missing, environment, hydro, pose_table, sea, wave, second_order, body, mode, "
+     "title, missing, environment, seabed, hydro, pose_table, sea, wave, second_order, body, mode, "
      "attachment, joint, "
      "constraint, "
      "marker, force, morison, "

@@ -80,7 +80,8 @@ TEST_CASE("a wrong key is told with its place and the nearest name") {
       {"[solver]", "[solvr]",
        "case.toml:34:2: unknown key 'solvr' in the case; did you mean 'solver'? (valid: title, "
        "missing, "
-       "environment, hydro, pose_table, sea, wave, second_order, body, mode, attachment, joint, "
+       "environment, seabed, hydro, pose_table, sea, wave, second_order, body, mode, attachment, "
+       "joint, "
        "constraint, "
        "marker, force, morison, chamber, piston, outlet, gauge, "
        "controller, solver, "
