@@ -68,9 +68,8 @@ void Observer::observe_loads(const HydroData& h, const double* y) {
   const water::AddedMass& mass = h.added_mass;
   fill(momentum_, [&](double* out) { mass.product.add_product(ws_.U.data(), out); });
   fill(rate_, [&](double* out) { mass.product.add_product(ws_.U_dot.data(), out); });
-  fill(radiation_, [&](double* out) {
-    h.visit([&](const auto& rung) { rung.add_loads(motion, out); });
-  });
+  fill(radiation_,
+       [&](double* out) { h.visit([&](const auto& rung) { rung.add_loads(motion, out); }); });
   add_loads(h);
 }
 
