@@ -113,3 +113,11 @@ def test_a_body_with_several_databases_starts_with_that_of_its_index(
     append(two_bodies, "body(1).variableHydro.hydroForceIndexInitial = 3;\n")
     with pytest.raises(CaseError, match=r"is 3, but the body has 2 databases"):
         convert(two_bodies, tmp_path / "other")
+
+
+def test_a_function_that_calls_itself_has_no_value(tmp_path: Path) -> None:
+    (tmp_path / "wecSimInputFile.m").write_text("called = again(2);\n")
+    (tmp_path / "again.m").write_text("function y = again(n)\ny = again(n - 1);\nend\n")
+    read = read_input(tmp_path / "wecSimInputFile.m")
+    assert "called" not in read.variables
+    assert "again calls itself" in str(read.remarks.items[0])

@@ -17,7 +17,14 @@ from hydrodae.linear import LinearModel
 
 STRAIN = [0.0, 0.01, 0.03, 0.06]
 TENSION = [0.0, 2e4, 9e4, 3e5]  # N, a rope that stiffens
-CURVE = f"curve_strain = {STRAIN}\ncurve_tension = {TENSION}"
+SLACK = [0.0, 1.0, 9e4, 3e5]  # one that hardly pulls at first
+
+
+def table(tension: list[float]) -> str:
+    return f"curve_strain = {STRAIN}\ncurve_tension = {tension}"
+
+
+CURVE = table(TENSION)
 
 
 def keys(end: list[float], length: float, segments: int, curve: str = CURVE) -> str:
@@ -25,9 +32,9 @@ def keys(end: list[float], length: float, segments: int, curve: str = CURVE) -> 
     return linear.replace("stiffness = [1.0]", curve)
 
 
-def spline() -> CubicHermiteSpline:
+def spline(tension: list[float] = TENSION) -> CubicHermiteSpline:
     """Slopes of Fritsch and Butland (1984) inside, of the chords at both ends."""
-    x, y = np.array(STRAIN), np.array(TENSION)
+    x, y = np.array(STRAIN), np.array(tension)
     h, chord = np.diff(x), np.diff(y) / np.diff(x)
     part = (h[:-1] + 2.0 * h[1:]) / (3.0 * (h[:-1] + h[1:]))
     inside = chord[:-1] * chord[1:] / (part * chord[1:] + (1.0 - part) * chord[:-1])
@@ -44,10 +51,11 @@ def test_a_straight_pull(strain: float) -> None:
     assert float(at_rest(text, "forces/line/tension")) == pytest.approx(pull, rel=1e-9)
 
 
-def test_a_hanging_line_tends_to_the_quadrature_of_its_catenary() -> None:
+@pytest.mark.parametrize("tension", [TENSION, SLACK])
+def test_a_hanging_line_tends_to_the_quadrature_of_its_catenary(tension: list[float]) -> None:
     """Irvine, Cable Structures (1981), section 2.3, with the strain of the curve."""
     length, weight, chord = 100.0, 98.1, 101.5
-    law = spline()
+    law = spline(tension)
 
     def strain(T: float) -> float:
         return float(brentq(lambda e: float(law(e)) - T, 0.0, 0.06))
@@ -63,7 +71,7 @@ def test_a_hanging_line_tends_to_the_quadrature_of_its_catenary() -> None:
     exact = np.hypot(H, 0.5 * weight * length)
     errors = []
     for n in (20, 40):
-        text = IDLE + line(keys([chord, 0.0, 0.0], length, n))
+        text = IDLE + line(keys([chord, 0.0, 0.0], length, n, table(tension)))
         errors.append(float(at_rest(text, "forces/line/tension")) / exact - 1.0)
     assert abs(errors[-1]) < 2e-4
     assert np.log2(errors[0] / errors[1]) == pytest.approx(2.0, abs=0.1)
@@ -83,9 +91,10 @@ def weight_on(curve: str, length: float) -> hydrodae.Results:
     return hydrodae.run(case(text, "end_time = 3.0\nrtol = 1e-9", 0.05))
 
 
-def test_the_line_stores_what_is_given_to_it() -> None:
+@pytest.mark.parametrize("tension", [TENSION, SLACK])
+def test_the_line_stores_what_is_given_to_it(tension: list[float]) -> None:
     """Work on the weight against stretch, height and motion of the line."""
-    found = weight_on(CURVE, 10.5)
+    found = weight_on(table(tension), 10.5)
     stored = found["forces/line/energy"].values
     given = -found["energy/work/line"].values
     assert np.ptp(given) > 5e3  # J
@@ -93,15 +102,15 @@ def test_the_line_stores_what_is_given_to_it() -> None:
 
 
 def test_a_straight_table_is_the_linear_line() -> None:
-    table = "curve_strain = [0.0, 0.004, 0.02]\ncurve_tension = [0.0, 4e3, 2e4]"
-    bent, linear = (weight_on(law, 9.95) for law in (table, "stiffness = [1e6]"))
+    law = "curve_strain = [0.0, 0.004, 0.02]\ncurve_tension = [0.0, 4e3, 2e4]"
+    bent, linear = (weight_on(each, 9.95) for each in (law, "stiffness = [1e6]"))
     for channel in ("bodies/weight/position", "forces/line/tension"):
         a, b = bent[channel].values, linear[channel].values
         assert np.abs(a - b).max() < 1e-8 * np.abs(b).max()
     at = "forces/line/tension"
     end = [10.1, 0.0, 0.0]
     straight = at_rest(IDLE + line(span(end, 10.0, 4, 10.0, 1e6)), at)
-    assert at_rest(IDLE + line(keys(end, 10.0, 4, table)), at) == pytest.approx(straight, rel=1e-12)
+    assert at_rest(IDLE + line(keys(end, 10.0, 4, law)), at) == pytest.approx(straight, rel=1e-12)
 
 
 def test_slow_frequencies_follow_from_the_slope() -> None:

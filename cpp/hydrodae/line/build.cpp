@@ -17,7 +17,7 @@ constexpr double thin_line = 0.01; ///< depth of a line without a diameter [m]
 
 /// Part of a line.
 struct Part {
-  double l, mass, diameter, EA, softest, damping, EI, strength; ///< `softest`: slope at strain 0
+  double l, mass, diameter, EA, damping, EI, strength;
   const Line& of;
   std::size_t index;
 };
@@ -26,14 +26,36 @@ Part part_of(const Line& of, std::size_t i, double length) {
   const auto get = [&](const std::vector<double>& values, double otherwise = 0.0) {
     return Line::of_part(values, i, otherwise);
   };
-  const double l = length / get(of.segments, 20.0), m = get(of.mass);
-  const double EA = of.stiffness_of(i),
-               softest = of.has_curve(i) ? of.curve_tension[1] / of.curve_strain[1] : EA;
+  const double l = length / get(of.segments, 20.0), m = get(of.mass), EA = of.stiffness_of(i);
   const double C =
       of.damping_ratio.empty() ? get(of.damping) : get(of.damping_ratio) * l * std::sqrt(EA * m);
-  return {l,       m, get(of.diameter),          EA,
-          softest, C, get(of.bending_stiffness), get(of.breaking_load, INFINITY),
-          of,      i};
+  return {
+      l,  m, get(of.diameter), EA, C, get(of.bending_stiffness), get(of.breaking_load, INFINITY),
+      of, i};
+}
+
+/// Curve of tension over the secant EA; null without a curve.
+std::shared_ptr<const Curve> curve_of(const Line& of) {
+  if (of.curve_strain.empty())
+    return nullptr;
+  std::vector<double> pulled = of.curve_tension;
+  for (double& T : pulled)
+    T *= of.curve_strain.back() / of.curve_tension.back();
+  return std::make_shared<const Curve>(of.curve_strain, std::move(pulled));
+}
+
+/// Strain at a tension over EA.
+double strain_at(const Curve* curve, double pulled) {
+  if (!curve)
+    return pulled;
+  double low = 0.0, high = 1.0;
+  while ((*curve)(high) < pulled)
+    high *= 2.0;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    ((*curve)(middle) < pulled ? low : high) = middle;
+  }
+  return high;
 }
 
 /// Adds half a segment to a node.
@@ -112,22 +134,17 @@ LineModel line_model(const Line& of, const element::Surroundings& of_case, doubl
     m.bed = -depth;
   }
   m.nodes.emplace_back();
-  std::shared_ptr<const Curve> curve;
-  if (!of.curve_strain.empty()) {
-    std::vector<double> pulled = of.curve_tension;
-    for (double& T : pulled)
-      T *= of.curve_strain.back() / of.curve_tension.back();
-    curve = std::make_shared<const Curve>(of.curve_strain, std::move(pulled));
-  }
+  const std::shared_ptr<const Curve> curve = curve_of(of);
   for (std::size_t i = 0; i < of.length.size(); ++i) {
     const Part p = part_of(of, i, i == 0 ? first : of.length[i]);
     const auto n = static_cast<int>(Line::of_part(of.segments, i, 20.0));
     const double weight =
         std::abs(p.mass * around.gravity -
                  around.density * around.gravity * 0.25 * pi * p.diameter * p.diameter);
+    const std::shared_ptr<const Curve> own = of.has_curve(i) ? curve : nullptr;
+    const double slack = std::max(strain_at(own.get(), weight * p.l / p.EA), 1e-6);
     for (int k = 0; k < n; ++k) {
-      m.segments.push_back({p.l, p.EA, p.damping, std::max(weight * p.l / p.softest, 1e-6),
-                            p.strength, of.has_curve(i) ? curve : nullptr});
+      m.segments.push_back({p.l, p.EA, p.damping, slack, p.strength, own});
       add_half(p, around, m.bed, m.nodes.back());
       LineNode next;
       next.at = m.nodes.back().at + p.l;

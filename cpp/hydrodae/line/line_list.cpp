@@ -51,8 +51,8 @@ LinePowers line_powers(const LineView<double>& at, const sea::WaveField& sea, do
   return out;
 }
 
-/// Integral of tension over EA by the strain [-]; with a curve by Gauss's rule over the bend of s,
-/// where it is a polynomial of degree 12 at most, and by the area of the curve beyond.
+/// Integral of tension over EA by the strain [-]; with a curve by Gauss's rule over pieces of the
+/// bend of s, in which the curve may have points, and by the area of the curve beyond.
 double strain_energy(const LineSegment& seg, double strain) {
   if (!seg.curve)
     return plus_integral(strain, seg.slack);
@@ -60,13 +60,15 @@ double strain_energy(const LineSegment& seg, double strain) {
                                             0.932469514203152},
                                   weights = {0.467913934572691, 0.360761573048139,
                                              0.171324492379170};
-  const double half = 0.5 * (std::min(strain, seg.slack) + seg.slack);
+  constexpr int pieces = 8;
+  const double half = 0.5 * (std::min(strain, seg.slack) + seg.slack) / pieces;
   double out = 0.0;
-  for (std::size_t i = 0; half > 0.0 && i < places.size(); ++i)
-    for (const double side : {-1.0, 1.0}) {
-      const double there = half * (1.0 + side * places[i]) - seg.slack;
-      out += half * weights[i] * (*seg.curve)(plus<double>(there, seg.slack).value);
-    }
+  for (int piece = 0; half > 0.0 && piece < pieces; ++piece)
+    for (std::size_t i = 0; i < places.size(); ++i)
+      for (const double side : {-1.0, 1.0}) {
+        const double there = half * (2.0 * piece + 1.0 + side * places[i]) - seg.slack;
+        out += half * weights[i] * (*seg.curve)(plus<double>(there, seg.slack).value);
+      }
   return strain > seg.slack ? out + seg.curve->area(strain) - seg.curve->area(seg.slack) : out;
 }
 

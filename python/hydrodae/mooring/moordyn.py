@@ -133,15 +133,14 @@ class _Conversion:
         deck = self.deck
         if bed := seabed_of(deck):
             if not self.dynamic:
-                raise CaseError(
-                    f"{deck.file}: the seabed is not flat, and a line at rest has a flat one; "
-                    "import it as a dynamic line, --type line, or write one depth [m] as WtrDpth "
-                    "in place of the file"
+                raise bed.row.fail(
+                    "the seabed is not flat, and a line at rest has a flat one; import it as a "
+                    "dynamic line, --type line, or write one depth [m] as WtrDpth in place of the "
+                    "file"
                 )
             self.out.seabed = bed.table()
-            self.out.notes.append(
-                "seabed: smooth between the points of the file, in MoorDyn bilinear"
-            )
+            text = "seabed: smooth between the points of its file, in MoorDyn bilinear"
+            self.out.note(text, bed.row.number)
             return 0.0, False
         depth = deck.option("wtrdpth", 0.0)
         fixed = [p.place[2] for p in deck.points.values() if p.attachment == "fixed"]

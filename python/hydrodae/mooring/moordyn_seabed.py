@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from hydrodae.errors import CaseError
-from hydrodae.mooring.moordyn_deck import Deck
-from hydrodae.mooring.moordyn_sections import named_file
+from hydrodae.mooring.moordyn_deck import Deck, is_number
+from hydrodae.mooring.moordyn_sections import Row, named_file
 from hydrodae.support.arrays import Array
 
 #: Options that name a seabed file; of WtrDpth, in MoorDyn-F, the value is a depth or a file.
@@ -18,11 +18,12 @@ SEABED_OPTIONS = ("wtrdpth", "seafloorfile", "bathymetry", "bathymetryfile")
 
 @dataclass(frozen=True)
 class Seabed:
-    """Places x (n,) and y (m,) of a grid, and the depths there (m, n), positive down [m]."""
+    """Places x (n,) and y (m,) of a grid, the depths there (m, n), positive down [m], its row."""
 
     x: Array
     y: Array
     depth: Array
+    row: Row
 
     def at(self, x: float, y: float) -> float:
         """Depth at a place, bilinear and level beyond the grid, as in MoorDyn [m]."""
@@ -42,22 +43,23 @@ def seabed_of(deck: Deck) -> Seabed | None:
     CaseError
         The file cannot be read, or a fixed point is below that seabed.
     """
-    named = [text for key in SEABED_OPTIONS if _is_name(text := deck.options.get(key, "0"))]
+    named = [key for key in SEABED_OPTIONS if not is_number(deck.options.get(key, "0"))]
     if not named:
         return None
-    path = named_file(deck.file, named[0])
+    name, row = deck.options[named[0]], deck.rows[named[0]]
+    path = named_file(deck.file, name)
     try:
         lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
     except OSError as error:
-        raise CaseError(
-            f"{deck.file}: the seabed {named[0]!r} cannot be read: {error.strerror}; write the "
-            "path of that file relative to this one, or one depth [m] as WtrDpth"
+        raise row.fail(
+            f"the seabed {name!r} cannot be read: {error.strerror}; write the path of that file "
+            "relative to this one, or one depth [m] as WtrDpth"
         ) from None
     rows = [(number, line.split()) for number, line in enumerate(lines, 1) if line.split()]
     if any(words[0].lower() == "ngridx" for _, words in rows):
-        bed = _checked(path, *_read_rows(path, rows))
+        bed = Seabed(*_checked(path, *_read_rows(path, rows)), row)
     else:
-        bed = _checked(path, *_read_points(path, rows))
+        bed = Seabed(*_checked(path, *_read_points(path, rows)), row)
     for point in deck.points.values():
         depth = bed.at(point.place[0], point.place[1])
         if point.attachment == "fixed" and -point.place[2] > 1.001 * depth:
@@ -76,8 +78,9 @@ def _read_rows(path: Path, rows: list[tuple[int, list[str]]]) -> tuple[Array, Ar
         raise CaseError(f"{path}: expected the lines nGridX and nGridY with the size of the grid")
     nx, ny = int(counts["ngridx"][0]), int(counts["ngridy"][0])
     if len(rest) != ny + 1:
-        raise CaseError(f"{path}: expected a row of x and {ny} rows of y (nGridY) below, "
-                        f"got {len(rest)} rows")  # fmt: skip
+        raise CaseError(
+            f"{path}: expected a row of x and {ny} rows of y (nGridY) below, got {len(rest)} rows"
+        )
     x = _numbers(path, *rest[0], nx)
     table = np.array([_numbers(path, *row, nx + 1) for row in rest[1:]])
     return x, table[:, 0], table[:, 1:]
@@ -86,8 +89,10 @@ def _read_rows(path: Path, rows: list[tuple[int, list[str]]]) -> tuple[Array, Ar
 def _read_points(path: Path, rows: list[tuple[int, list[str]]]) -> tuple[Array, Array, Array]:
     """MoorDyn-C: two counts, a row of x, a row of y, then points x, y, z, upwards."""
     if len(rows) < 4:
-        raise CaseError(f"{path}: expected a seabed: nGridX and nGridY with rows (MoorDyn-F), or "
-                        "two counts, x, y and points (MoorDyn-C)")  # fmt: skip
+        raise CaseError(
+            f"{path}: expected a seabed: nGridX and nGridY with rows (MoorDyn-F), or two counts, "
+            "x, y and points (MoorDyn-C)"
+        )
     nx, ny = map(int, _numbers(path, *rows[0], 2))
     x, y = _numbers(path, *rows[1], nx), _numbers(path, *rows[2], ny)
     depth = np.full((ny, nx), np.nan)
@@ -103,7 +108,7 @@ def _read_points(path: Path, rows: list[tuple[int, list[str]]]) -> tuple[Array, 
     return x, y, depth
 
 
-def _checked(path: Path, x: Array, y: Array, depth: Array) -> Seabed:
+def _checked(path: Path, x: Array, y: Array, depth: Array) -> tuple[Array, Array, Array]:
     for name, places in (("x", x), ("y", y)):
         if len(places) < 2 or (np.diff(places) <= 0.0).any():
             raise CaseError(f"{path}: {name} must rise over two places at least")
@@ -112,7 +117,7 @@ def _checked(path: Path, x: Array, y: Array, depth: Array) -> Seabed:
             f"{path}: a depth is {depth.min():g} m, above the water; rows below nGridX and nGridY "
             "have depths, positive down, points have z, negative down"
         )
-    return Seabed(x, y, depth)
+    return x, y, depth
 
 
 def _numbers(path: Path, number: int, words: list[str], count: int) -> Array:
@@ -123,11 +128,3 @@ def _numbers(path: Path, number: int, words: list[str], count: int) -> Array:
     if len(found) != count or not np.isfinite(found).all():
         raise CaseError(f"{path}:{number}: expected {count} numbers instead of {' '.join(words)!r}")
     return found
-
-
-def _is_name(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return True
-    return False

@@ -369,9 +369,14 @@ class _Run:
 
     def _function(self, name: str, values: list[Any]) -> Any:
         """Value of a function beside the input file, or of MATLAB."""
-        text = function_text(self.read.path.parent, name)
+        text, path = (
+            function_text(self.read.path.parent, name),
+            self.read.path.with_name(f"{name}.m"),
+        )
+        if text is not None and path == self.read.path:
+            raise NotEvaluated(f"{name} calls itself")
         if text is not None:
-            return result_of(text, values, self.read.path.parent / f"{name}.m")
+            return result_of(text, values, path)
         if name == "exist" and len(values) == 2:
             return float(values[0] in self.read.variables)
         return called(name, values, self._function)
