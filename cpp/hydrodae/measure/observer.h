@@ -90,9 +90,9 @@ private:
   const Regime& s_;
   Workspace<double> ws_;
   Observation out_;
-  std::vector<Vector6> totals_; ///< per body: inertia minus all loads, tangent axes
-  VectorX rate_, momentum_, radiation_;
-  VectorX moving_; ///< (n_moving,) one of these for the coordinates that move
+  std::vector<Vector6> totals_;         ///< per body: inertia minus all loads, tangent axes
+  VectorX rate_, momentum_, radiation_; ///< (6 n,) rate of the momentum, momentum, radiation
+  VectorX moving_; ///< (n_moving,) rows of moving coordinates, before they are spread
   /// Values of one list: energies and declared channels, or loads
   std::vector<double> element_values_;
   const element::Elements* in_waves_ = nullptr; ///< law that shows the elevation
