@@ -74,3 +74,34 @@ def test_gaps_end_a_run_where_they_would_change_its_branch(formulation: str, rto
     values = {"solver.method": "radau", "solver.formulation": formulation, "solver.rtol": rtol}
     with pytest.raises(hydrodae.SolverError, match=r"have drifted: joints/.* at a singular pose"):
         hydrodae.run(BENCHMARKS / "slider_crank_equal.toml", set=values)
+
+
+def hang(stiffness: float, load: float, stretch: float) -> hydrodae.Results:
+    """Three seconds of 3 t on 10 m of undamped rope, pushed from the side, at rtol 1e-3."""
+    low, weight = [0.0, 0.0, -10.0], 3000.0 * 9.81
+    rope = spring("rope", "ground", "weight", [0.0] * 3, low, stiffness)
+    push = dict(type="constant_load", name="push", body="weight", force=[load, 0.0, 0.0])
+    tables = case(
+        [body("weight", "point", 3000.0, low)],
+        3.0,
+        gravity=9.81,
+        forces=[rope | {"length": 10.0 - weight / stiffness - stretch}, push],
+    )
+    return run_tables(tables, method="explicit_rk", rtol=1e-3)
+
+
+@pytest.mark.parametrize(("stiffness", "load", "stretch"), [(2e7, 1.0, 0.0), (2e9, 1000.0, 1e-4)])
+def test_errors_within_the_tolerance_may_stretch_a_stiff_rope(
+    stiffness: float, load: float, stretch: float
+) -> None:
+    """The stretch is a thousandth of the way to the side, and holds more energy than the swing."""
+    results = hang(stiffness, load, stretch)
+    swing = 10.0 * load / (3000.0 * 9.81) * (1.0 - np.cos(np.sqrt(0.981) * results.time))
+    place = results["bodies/weight/position"].values[:, 0]
+    assert np.abs(place - swing).max() < 2e-2 * swing.max()
+
+
+def test_a_vibration_that_the_method_damps_is_stopped() -> None:
+    """Hardly pushed, the weight only vibrates, by 0.1 mm, and a tenth of the energy is lost."""
+    with pytest.raises(hydrodae.SolverError, match="energy balance"):
+        hang(2e9, 0.1, 1e-4)

@@ -6,6 +6,7 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/math/rotation.h"
 #include "hydrodae/run/guards.h"
 #include "hydrodae/system/mass.h"
 #include "hydrodae/system/mechanisms.h"
@@ -38,12 +39,43 @@ double guard_at_singular_poses(const SolverOptions& options) {
                             : std::min(usual, 1e-2 * std::sqrt(std::max(options.rtol, 1e-6)));
 }
 
+/// Elastic energy of each body when its coordinates are one unit of position off, 1/2 sum K_cc
+/// x_c^2 with the stiffness K at the start [J]: an error within the tolerance holds rtol^2 of it.
+VectorX elastic_energies(const GuardInputs& in) {
+  const system::Regime& s = in.system;
+  system::JacobianWorkspace ws(s);
+  system::JacobianParts parts(in.pattern);
+  const VectorX rest = VectorX::Zero(s.n);
+  system::jacobian(s, in.pattern, ws, 0.0, in.y.data(), rest.data(), parts);
+  VectorX out = VectorX::Zero(static_cast<Index>(s.bodies.size()));
+  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+    const system::BodyData& b = s.bodies[i];
+    MatrixX K = MatrixX::Zero(b.n_active, b.n_position);
+    for (Index c = 0; c < b.n_position; ++c)
+      for (Index e = in.pattern.column_start[b.q0 + c]; e < in.pattern.column_start[b.q0 + c + 1];
+           ++e)
+        if (const Index r = in.pattern.row[e] - b.u0; r >= 0 && r < b.n_active)
+          K(r, c) = parts.by_y[e];
+    if (b.rotation == system::BodyData::Rotation::free) { // by the rotation vector
+      const Eigen::Vector4d p = in.y.segment<4>(b.q0 + b.n_translations);
+      K.middleCols<3>(b.n_translations) =
+          (0.5 * K.rightCols<4>() * quaternion_rate_matrix<double>(p)).eval();
+    }
+    for (int c = 0; c < b.n_active; ++c) {
+      const double unit = b.active[c] < 3 ? b.length_scale : b.length_scale / b.lever;
+      out[static_cast<Index>(i)] += 0.5 * std::max(K(c, c), 0.0) * unit * unit;
+    }
+  }
+  return out;
+}
+
 class EnergyGuard final : public Follower {
 public:
   explicit EnergyGuard(const GuardInputs& in)
       : s_(in.system), rtol_(in.options.rtol), part_(allowed_energy(in.options)),
         at_singular_(in.options.energy_guard ? part_ : guard_at_singular_poses(in.options)),
-        guided_(system::guided_mechanisms(in.system)), poses_(in.poses) {}
+        elastic_(elastic_energies(in)), guided_(system::guided_mechanisms(in.system)),
+        poses_(in.poses) {}
 
   /// Judges the balance of the scene, then that of each mechanism.
   void judge(const Step& step) override {
@@ -59,7 +91,7 @@ public:
   void finish(const Step& step) override {
     const auto look = [&](int mechanism, double error, double exchanged) {
       const double part = std::max(allowed(mechanism), usual);
-      if (std::abs(error) - little * least(mechanism) > part * exchanged)
+      if (std::abs(error) - least(mechanism, little) > part * exchanged)
         fail(step.end, mechanism, {error, part, exchanged}, " in the whole run",
              "a smaller tolerance or max_step may help", "");
     };
@@ -80,7 +112,7 @@ private:
     if (std::abs(error) <= std::min(part_, at_singular_) * exchanged)
       return;
     // A method that would fail at the end of the run is replaced while that is possible.
-    const double spared = least(mechanism) * (step.may_change ? little : 1.0),
+    const double spared = least(mechanism, step.may_change ? little : 1.0),
                  missing = std::abs(error) - spared, part = allowed(mechanism);
     if (missing <= std::min(part, at_singular_) * exchanged)
       return;
@@ -94,7 +126,18 @@ private:
          largest_reactions(s_, step.y));
   }
 
-  double least(int mechanism) const { return energy_of_errors(s_, rtol_, mechanism); }
+  /// Energy of errors within the tolerance [J]: `part` of the kinetic energy of a hundred steps, or
+  /// the elastic energy of positions that are off by their sum, the root of a hundred tolerances.
+  double least(int mechanism, double part) const {
+    double out = part * energy_of_errors(s_, rtol_, mechanism);
+    for (std::size_t i = 0; i < s_.bodies.size(); ++i)
+      if (const system::BodyData& b = s_.bodies[i];
+          b.group >= 0 && (mechanism < 0 || b.mechanism == mechanism)) {
+        const double error = 10.0 * rtol_ * s_.motion_scale[b.group];
+        out = std::max(out, error * error * elastic_[static_cast<Index>(i)]);
+      }
+    return out;
+  }
 
   /// Allowed part of the energy. In mechanisms that drives guide fully, it is larger: the energy
   /// then measures the reactions, which are one derivative less exact, and hardly the motion.
@@ -133,6 +176,7 @@ private:
 
   const system::Regime& s_;
   double rtol_, part_, at_singular_;
+  VectorX elastic_;          ///< (n_bodies,) elastic energy of one unit of position [J]
   std::vector<bool> guided_; ///< true for mechanisms that joints and drives leave no free motion
   PoseWatch& poses_;
 };

@@ -168,7 +168,7 @@ Guards::Guards(const system::Regime& system, const system::Pattern& pattern,
                const SolverOptions& options, const VectorX& y)
     : poses_(system, options, y,
              energy_minds_singular_poses(options) || minds_drift(system, options)) {
-  const GuardInputs in{system, pattern, options, poses_};
+  const GuardInputs in{system, pattern, options, y, poses_};
   const auto add = [this](std::unique_ptr<Follower> guard) {
     if (guard)
       list_.push_back(std::move(guard));

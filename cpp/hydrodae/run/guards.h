@@ -70,6 +70,7 @@ struct GuardInputs {
   const system::Regime& system;
   const system::Pattern& pattern;
   const SolverOptions& options;
+  const VectorX& y; ///< pose at the start
   PoseWatch& poses;
 };
 
