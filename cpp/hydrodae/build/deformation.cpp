@@ -71,7 +71,7 @@ MatrixX hydrostatics(const model::Scene& scene, const model::Body& body,
       if (i >= 6 || j >= 6)
         out(i, j) = entry.mode_stiffness(place[static_cast<std::size_t>(i)],
                                          place[static_cast<std::size_t>(j)]);
-  if (scene.hydro->axes == "yaw")
+  if (scene.hydro->axes_kind() == water::HydroAxes::yaw)
     for (const Index c : {0, 1, 5}) { // still water is the same at every place and yaw
       out.row(c).setZero();
       out.col(c).setZero();

@@ -96,9 +96,7 @@ void add_hydro(const model::Scene& scene, system::System& s) {
   if (!scene.hydro || !scene.database)
     return;
   system::HydroData& h = s.hydro;
-  h.axes = scene.hydro->axes == "body"   ? system::HydroAxes::body
-           : scene.hydro->axes == "mean" ? system::HydroAxes::mean
-                                         : system::HydroAxes::yaw;
+  h.axes = scene.hydro->axes_kind();
   number_coordinates(scene, s);
   set_hydrostatics(scene, s);
   if (h.n_moving == 0) {

@@ -102,7 +102,7 @@ void check_mesh(const Scene& scene, const Body& body) {
   if (water(scene).density <= 0.0)
     refuse(body, "hydrostatics",
            "a mesh needs the density of the water: a database, or environment.water_density");
-  if (scene.hydro && body.hydro && scene.hydro->axes == "body")
+  if (scene.hydro && body.hydro && scene.hydro->axes_kind() == water::HydroAxes::body)
     refuse(body, "hydrostatics",
            "axes = \"body\" is for linear loads that turn with the body; with a mesh use axes = "
            "\"mean\" or \"yaw\"");

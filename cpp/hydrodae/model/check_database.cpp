@@ -54,7 +54,7 @@ void check_still_water(const hydro::Database& database, const Body& body,
     }
 }
 
-void check_wet_body(const hydro::Database& database, const Body& body, const std::string& axes) {
+void check_wet_body(const hydro::Database& database, const Body& body, water::HydroAxes axes) {
   const hydro::DatabaseBody* entry = hydro::find_body(database, *body.hydro);
   if (!entry) {
     std::vector<std::string> names;
@@ -67,7 +67,7 @@ void check_wet_body(const hydro::Database& database, const Body& body, const std
   if (moves(body) && !body.hydrostatics_by_mesh() && !entry->hydrostatics)
     refuse(body, database.path + " holds no hydrostatics of " + in_quotes(*body.hydro) +
                      ", and a body that moves needs them");
-  if (axes == "yaw" && !body.hydrostatics_by_mesh() && entry->hydrostatics)
+  if (axes == water::HydroAxes::yaw && !body.hydrostatics_by_mesh() && entry->hydrostatics)
     check_still_water(database, body, *entry->hydrostatics);
 }
 
@@ -174,7 +174,7 @@ void check_database(const Scene& scene) {
   for (const Body& body : scene.bodies) {
     if (!body.hydro || body.part)
       continue;
-    check_wet_body(database, body, scene.hydro->axes);
+    check_wet_body(database, body, scene.hydro->axes_kind());
     if (std::find(used.begin(), used.end(), *body.hydro) != used.end())
       refuse(body, "hydro = " + in_quotes(*body.hydro) + " already belongs to another body");
     used.push_back(*body.hydro);

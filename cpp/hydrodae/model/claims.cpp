@@ -76,7 +76,7 @@ void claim_second_order(const Scene& scene, const Body& body, std::vector<Claim>
   if (body.waves_by_mesh())
     out.push_back({body.name, all, "body." + body.name + ".froude_krylov",
                    "its mesh (key 'froude_krylov')", "use froude_krylov = \"linear\"", true});
-  if (scene.hydro && scene.hydro->axes == "body")
+  if (scene.hydro && scene.hydro->axes_kind() == water::HydroAxes::body)
     out.push_back({body.name, all, "hydro.axes", "axes = \"body\"", "use axes = \"mean\"", true});
   std::vector<Effect> own;
   if (scene.second_order->has("sum"))

@@ -1,5 +1,6 @@
 #pragma once
-/// Words and keys of radiation in a case, from the list of rungs (water/radiation.h).
+/// Words and keys of radiation and of its axes in a case, from the lists of the water
+/// (water/radiation.h, water/hydro_axes.h).
 
 #include <algorithm>
 #include <string>
@@ -45,6 +46,30 @@ inline std::string_view radiation_doc() {
     water::for_each_rung([&]<class Rung>(std::type_identity<Rung>) {
       out += " " + std::string(Rung::type) + ": " + std::string(Rung::doc) + ".";
     });
+    return out;
+  }();
+  return text;
+}
+
+/// Axes of a word; the reader has refused all others.
+inline water::HydroAxes axes_of(std::string_view word) {
+  return std::ranges::find(water::axes_words, word, &water::AxesWord::word)->axes;
+}
+
+/// Words of the key `axes`.
+inline std::vector<std::string_view> axes_choices() {
+  std::vector<std::string_view> words;
+  for (const water::AxesWord& row : water::axes_words)
+    words.push_back(row.word);
+  return words;
+}
+
+/// Documentation of the key `axes`.
+inline std::string_view axes_doc() {
+  static const std::string text = [] {
+    std::string out = "Axes in which added mass, radiation and excitation act.";
+    for (const water::AxesWord& row : water::axes_words)
+      out += " " + std::string(row.word) + ": " + std::string(row.doc) + ".";
     return out;
   }();
   return text;

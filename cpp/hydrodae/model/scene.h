@@ -84,19 +84,12 @@ struct HydroOptions : water::RadiationKeys {
   std::string radiation = "exponential";
 
   RungReads reads() const { return reads_of(radiation); }
+  water::HydroAxes axes_kind() const { return axes_of(axes); }
 
   template <class H = HydroOptions> static Fields<H> fields() {
     const Fields<H> own = {
         {"database", &H::database, "-", "Path of hydro.h5, relative to the case file.", true},
-        {"axes",
-         &H::axes,
-         "-",
-         "Axes in which added mass, radiation and excitation act. mean: earth axes turned by the "
-         "yaw of each body at the start or in the equilibrium. yaw: axes that follow its yaw. "
-         "body: axes that it carries, for large rotations in still water.",
-         false,
-         any_value,
-         {"mean", "yaw", "body"}},
+        {"axes", &H::axes, "-", axes_doc(), false, any_value, axes_choices()},
         {"radiation", &H::radiation, "-", radiation_doc(), false, any_value, radiation_words()},
     };
     return own + radiation_keys<H>();

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "hydrodae/element/body_state.h"
 
@@ -22,6 +23,18 @@ namespace hydrodae::water {
 /// Axes of added mass, radiation and excitation: carried by each body; earth axes turned by the
 /// mean yaw of each body; or axes that turn only with the body's yaw.
 enum class HydroAxes { body, mean, yaw };
+
+/// Word of these axes in a case, with its meaning.
+struct AxesWord {
+  HydroAxes axes;
+  std::string_view word, doc;
+};
+inline constexpr std::array<AxesWord, 3> axes_words = {{
+    {HydroAxes::mean, "mean",
+     "earth axes turned by the yaw of each body at the start or in the equilibrium"},
+    {HydroAxes::yaw, "yaw", "axes that follow its yaw"},
+    {HydroAxes::body, "body", "axes that it carries, for large rotations in still water"},
+}};
 
 /// Hydrodynamic body: places of its six coordinates in the full and in the moving vectors, and its
 /// mean yaw, that of the start or equilibrium pose.

@@ -11,13 +11,12 @@ from hydrodae.errors import CaseError
 from hydrodae.simulation.simulate import Progress
 from hydrodae.study.chart import methods as methods_of
 from hydrodae.study.chart.machine import machine
-from hydrodae.study.chart.methods import METHODS, TOLERANCES, Method
+from hydrodae.study.chart.methods import ADAPTIVE, METHODS, SHORT_METHODS, TOLERANCES, Method
 from hydrodae.study.chart.records import Chart, Recommendation, Run
 from hydrodae.study.chart.runs import Judge, Runner
 from hydrodae.study.reference import error
 
-#: What `recommend` compares, and how finely.
-SHORT_METHODS = ("ida", "radau", "explicit_rk", "generalized_alpha")
+#: Tolerances that `recommend` compares.
 SHORT_TOLERANCES = (1e-3, 1e-5, 1e-7, 1e-9)
 #: Rungs of a ladder of steps that the scene chooses.
 _STEPS, _SHORT_STEPS = 7, 4
@@ -164,7 +163,7 @@ def recommend(
 
 def _scene_steps(runner: Runner, rungs: int) -> list[float]:
     """Ladder of steps from an adaptive run; from the end time if none comes to its end."""
-    for name in ("ida", "radau", "explicit_rk"):
+    for name in reversed(ADAPTIVE):
         scout = runner.run(Method(name), _SCOUT)
         if scout.solution is not None:
             mean = runner.case.end_time / max(int(scout.statistics["steps"]), 1)

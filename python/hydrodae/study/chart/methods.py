@@ -18,17 +18,18 @@ TRAITS: dict[str, dict[str, Any]] = {
 #: Tolerance of Newton's iteration in Runge-Kutta methods of fixed steps, below any useful error.
 _NEWTON = 1e-10
 
-#: What a chart compares by default.
+#: Methods whose own error test chooses the steps, the most trusted first.
+ADAPTIVE = tuple(name for name, traits in TRAITS.items() if traits["adapts"] and name != "auto")
+#: Those, and the ones of fixed steps that have one order.
+SHORT_METHODS = (
+    *ADAPTIVE,
+    *(name for name, t in TRAITS.items() if not t["adapts"] and not t["orders"]),
+)
+#: What a chart compares by default; three orders of a method with many, the lowest of one with few.
 METHODS = (
     "auto",
-    "ida",
-    "radau",
-    "radau:5",
-    "radau:9",
-    "radau:13",
-    "explicit_rk",
-    "explicit_rk:5",
-    "generalized_alpha",
+    *SHORT_METHODS,
+    *(f"{n}:{o}" for n in ADAPTIVE for o in TRAITS[n]["orders"][2:7:2] or TRAITS[n]["orders"][:1]),
 )
 #: Relative tolerances of the adaptive methods.
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)

@@ -14,13 +14,11 @@ from hydrodae.errors import CaseError, RunInterrupted, SolverError
 from hydrodae.results import Results
 from hydrodae.simulation import run
 from hydrodae.simulation.simulate import Progress
-from hydrodae.study.chart.methods import Method, parse_method
+from hydrodae.study.chart.methods import ADAPTIVE, Method, parse_method
 from hydrodae.study.reference import Solution, default_channels, error, pick, read_file
 
 #: Tolerances of a reference, until one comes to its end.
 _TIGHT = (1e-12, 1e-11, 1e-10, 1e-9, 1e-8)
-#: Methods of references, the most trusted first.
-_JUDGES = ("radau", "explicit_rk", "ida")
 #: Class of a failure by words of the solver's message.
 _CLASSES = (
     ("energy_guard", "energy guard"),
@@ -184,7 +182,7 @@ class Judge:
                 first = [parse_method(text)]
                 if not first[0].adaptive:
                     raise CaseError(f"reference {text!r}: {first[0].name} has no tolerance")
-        order = first + [Method(n) for n in _JUDGES if n not in [m.name for m in first]]
+        order = first + [Method(n) for n in ADAPTIVE if n not in [m.name for m in first]]
         wanted = 2 if path is None else 1
         solutions: list[tuple[str, str, Solution]] = []
         for method in order:
