@@ -14,6 +14,7 @@
 
 #include "hydrodae/control/law.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/model/forces.h"
 #include "hydrodae/model/scene.h"
 
 namespace hydrodae::bindings {
@@ -156,7 +157,7 @@ public:
       if (auto* law = c.as<control::Python>())
         if (law->make = maker(law->name, controllers); law->make)
           law->make_again = maker(law->name, again);
-    std::apply([&](auto&... list) { (join_laws(list, forces), ...); }, out.forces);
+    std::apply([&](auto&... list) { (join_laws(list, forces), ...); }, out.forces->lists);
     for (model::Constraint& c : out.constraints)
       if (const auto found = drives.find(c->name);
           c.as<model::DrivenCoordinate>() && found != drives.end())

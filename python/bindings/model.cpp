@@ -1,3 +1,4 @@
+#include "hydrodae/model/forces.h"
 #include "hydrodae/model/scene.h"
 
 #include <pybind11/stl.h>
@@ -49,12 +50,10 @@ void bind_model(py::module_& module) {
           "python_forces",
           [](const Scene& s) {
             std::vector<std::string> out;
-            const auto add = [&](const auto& list) {
-              for (const auto& force : list)
-                if constexpr (requires { force.function; })
-                  out.push_back(force.name);
-            };
-            std::apply([&](const auto&... list) { (add(list), ...); }, s.forces);
+            model::for_each_force(s, [&](const auto& force) {
+              if constexpr (requires { force.function; })
+                out.push_back(force.name);
+            });
             return out;
           },
           "Forces whose law is a Python function.")

@@ -7,6 +7,7 @@
 
 #include "databases.h"
 #include "hydrodae/joint/types.h"
+#include "hydrodae/model/forces.h"
 #include "hydrodae/model/scene.h"
 
 namespace hydrodae::test {
@@ -193,7 +194,7 @@ inline void add_every_force(model::Scene& scene, Random& random, bool late = fal
         };
         (add(lists), ...);
       },
-      scene.forces);
+      scene.forces->lists);
 }
 
 inline sea::Wave swell() {

@@ -7,6 +7,7 @@
 #include "hydrodae/element/laws.h"
 #include "hydrodae/integrate/integrator.h"
 #include "hydrodae/math/dual.h"
+#include "hydrodae/model/forces.h"
 #include "hydrodae/statics/consistent_start.h"
 #include "hydrodae/statics/equilibrium.h"
 #include "hydrodae/system/residual.h"
@@ -59,7 +60,7 @@ model::Scene weight(double stiffness) {
   spring.name = "spring";
   spring.joint = "slide";
   spring.stiffness = stiffness;
-  std::get<std::vector<element::PtoLinear>>(scene.forces) = {spring};
+  std::get<std::vector<element::PtoLinear>>(scene.forces->lists) = {spring};
   scene.solver.end_time = 1.0;
   scene.output.step = 0.1;
   return scene;

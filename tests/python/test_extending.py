@@ -38,7 +38,7 @@ PLACES = [
     (
         "pto_quadratic.h",
         "element",
-        "model/scene.h",
+        "model/forces.h",
         "std::vector<element::PtoLagged>>;",
         "std::vector<element::PtoQuadratic>",
     ),

@@ -86,6 +86,25 @@ def test_the_precompiled_header_holds_no_element(repository: Path) -> None:
     assert {word for word in listed[1].split() if "hydrodae/" in word} == {"hydrodae/core/field.h"}
 
 
+def test_a_change_of_one_force_compiles_few_sources(repository: Path) -> None:
+    """Sources that read the header of a type of force: those that name types of force."""
+    included: dict[str, set[str]] = {}
+    for file, _, target in includes(repository):
+        included.setdefault(file, set()).add(target.strip('"<>').removeprefix("hydrodae/"))
+
+    def behind(file: str, seen: set[str]) -> set[str]:
+        for target in included.get(file, set()) - seen:
+            seen.add(target)
+            behind(target, seen)
+        return seen
+
+    sources = {file: behind(file, set()) for file in included if file.endswith(".cpp")}
+    forces = {f for f in included["model/forces.h"] if f.startswith("element/")}
+    assert len(forces) > 15
+    many = {f: n for f in forces if (n := sum(f in read for read in sources.values())) > 15}
+    assert not many
+
+
 def test_libraries_stay_in_their_rooms(repository: Path) -> None:
     wrong = [
         f"{file} includes {target}"

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "hydrodae/core/text.h"
+#include "hydrodae/line/line.h"
 #include "hydrodae/sea/second_order.h"
 
 namespace hydrodae::build {
@@ -52,7 +53,7 @@ void add_bound_waves(const model::Scene& scene, Sea& sea) {
              "database and by meshes is of first order";
   if (!scene.gauges.empty())
     sea.second = std::make_shared<sea::SecondOrder>(below, water.depth, water.gravity);
-  if (scene.morison.empty() && std::get<std::vector<line::Line>>(scene.forces).empty())
+  if (scene.morison.empty() && model::forces_of<line::Line>(scene).empty())
     return;
   const sea::BoundWaves bound = sea::bound_waves(
       below, water.depth, water.gravity, static_cast<std::size_t>(scene.sea.second_order_terms));

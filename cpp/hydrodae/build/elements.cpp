@@ -12,6 +12,7 @@
 #include "hydrodae/element/laws.h"
 #include "hydrodae/hydro/coverage.h"
 #include "hydrodae/math/rotation.h"
+#include "hydrodae/model/forces.h"
 #include "hydrodae/system/elements.h"
 #include "hydrodae/water/buoyancy.h"
 #include "hydrodae/water/hydrostatics.h"
@@ -218,7 +219,7 @@ void add_elements(const model::Scene& scene, const Sea& sea, system::System& s) 
       for (const auto& list : alike(forces))
         add_list(scene, around, list, s);
   };
-  std::apply([&](const auto&... list) { (add(list), ...); }, scene.forces);
+  std::apply([&](const auto&... list) { (add(list), ...); }, scene.forces->lists);
   add_buoyancy(scene, s);
 }
 

@@ -12,6 +12,7 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/cosim/fmu.h"
 #include "hydrodae/joint/types.h"
+#include "hydrodae/model/forces.h"
 #include "hydrodae/model/motion.h"
 #include "hydrodae/observe/recorder.h"
 #include "hydrodae/run/controllers.h"
@@ -119,12 +120,10 @@ bool joint_is_used(const model::Scene& scene, const std::string& name) {
         return std::any_of(terms.begin(), terms.end(),
                            [&](const auto& term) { return term.joint == name; });
       });
-  const auto look = [&](const auto& force) {
+  model::for_each_force(scene, [&](const auto& force) {
     if constexpr (requires { force.joint; })
       used = used || force.joint == name;
-  };
-  std::apply([&](const auto&... list) { (std::for_each(list.begin(), list.end(), look), ...); },
-             scene.forces);
+  });
   return used;
 }
 

@@ -23,7 +23,7 @@
 /// unknowns (the last ones); its law returns their residuals in place of rates. A force with inputs
 /// defines n_signals, inputs() and start_signals(). A force that reads the reaction of its joint
 /// defines n_reaction = 6; one that sticks at events, sticks(). A new kind of force needs one
-/// header and one line in the list of forces (model/scene.h).
+/// header and one line in the list of forces (model/forces.h).
 
 #include <type_traits>
 #include <utility>

@@ -18,6 +18,7 @@
 #include "hydrodae/io/sha256.h"
 #include "hydrodae/io/toml_table.h"
 #include "hydrodae/model/deformation.h"
+#include "hydrodae/model/forces.h"
 #include "hydrodae/model/joint_keys.h"
 #include "hydrodae/model/mass.h"
 #include "hydrodae/model/scene_tables.h"
@@ -163,12 +164,12 @@ struct TableReader {
       (scene.*member).push_back(read_table<model::Joint>(entry, scene.places));
     });
   }
-  void operator()(const std::string& name, model::Forces model::Scene::* member) const {
+  void operator()(const std::string& name, Indirect<model::Forces> model::Scene::* member) const {
     const auto types = [](const auto& visit) { model::for_each_force_type(visit); };
     for_each_entry(root, name, scene.places, [&](const Table& entry) {
       read_typed(entry, scene.places, types,
                  [&]<class Force>(const Table& own, std::type_identity<Force>) {
-                   std::get<std::vector<Force>>(scene.*member)
+                   std::get<std::vector<Force>>((scene.*member)->lists)
                        .push_back(read_table<Force>(own, scene.places));
                  });
     });

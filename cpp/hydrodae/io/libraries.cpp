@@ -8,6 +8,7 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/io/sha256.h"
+#include "hydrodae/model/forces.h"
 
 namespace hydrodae::io {
 
@@ -113,13 +114,10 @@ void join_libraries(const std::vector<std::string>& paths, model::Scene& scene) 
   }
   if (offers.empty())
     return;
-  const auto give_all = [&](auto& list) {
-    using F = typename std::remove_reference_t<decltype(list)>::value_type;
-    if constexpr (std::is_base_of_v<element::LibraryLaw, F>)
-      for (F& force : list)
-        give(force, F::port == element::Port::on_body, offers, scene);
-  };
-  std::apply([&](auto&... list) { (give_all(list), ...); }, scene.forces);
+  model::for_each_force(scene, [&]<class Force>(Force& force) {
+    if constexpr (std::is_base_of_v<element::LibraryLaw, Force>)
+      give(force, Force::port == element::Port::on_body, offers, scene);
+  });
 }
 
 } // namespace hydrodae::io

@@ -4,6 +4,8 @@
 #include <string_view>
 
 #include "hydrodae/core/text.h"
+#include "hydrodae/element/dry_friction.h"
+#include "hydrodae/line/line.h"
 #include "hydrodae/model/deformation.h"
 #include "hydrodae/model/motion.h"
 
@@ -42,7 +44,7 @@ void check_reaction_names(const Scene& scene) {
   for (const Joint& joint : scene.joints)
     if (joint.one_sided)
       check_free("joint", joint.name);
-  for (const element::DryFriction& f : std::get<std::vector<element::DryFriction>>(scene.forces)) {
+  for (const element::DryFriction& f : forces_of<element::DryFriction>(scene)) {
     check_free("force", f.name);
     const Joint* joint = find_named(scene.joints, f.name);
     if (joint && joint->one_sided)
@@ -88,7 +90,7 @@ bool coincide(const Vector3& a, const Vector3& b) {
 }
 
 void check(const Scene& scene) {
-  if (scene.bodies.empty() && std::get<std::vector<line::Line>>(scene.forces).empty())
+  if (scene.bodies.empty() && forces_of<line::Line>(scene).empty())
     throw ModelError("body", "the case has no [[body]]");
   std::vector<std::string> bodies; // bodies of the case
   for (const Body& body : scene.bodies)
@@ -101,8 +103,7 @@ void check(const Scene& scene) {
   check_names(names_of(scene.constraints), "constraint");
   check_reaction_names(scene);
   check_names(names_of(scene.markers), "marker");
-  std::vector<std::string> forces;
-  std::apply([&](const auto&... list) { (append_names(list, forces), ...); }, scene.forces);
+  const std::vector<std::string> forces = force_names(scene);
   check_names(forces, "force");
   check_names(names_of(scene.morison), "morison");
   check_names(names_of(scene.chambers), "chamber");

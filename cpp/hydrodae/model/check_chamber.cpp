@@ -35,8 +35,7 @@ void check_chamber(const Scene& scene, const air::Chamber& chamber) {
   if (!(chamber.pressure > -outside))
     refuse(entry, "pressure",
            "is a gauge pressure, and must be above minus that of the atmosphere");
-  std::vector<std::string> taken;
-  std::apply([&](const auto&... list) { (append_names(list, taken), ...); }, scene.forces);
+  std::vector<std::string> taken = force_names(scene);
   append_names(scene.morison, taken);
   if (std::find(taken.begin(), taken.end(), chamber.name) != taken.end())
     refuse(entry, "name", "a [[force]] or [[morison]] has this name too");

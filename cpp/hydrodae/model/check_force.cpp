@@ -1,6 +1,7 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/joint/types.h"
 #include "hydrodae/model/check.h"
+#include "hydrodae/model/forces.h"
 
 namespace hydrodae::model {
 namespace {
@@ -76,11 +77,7 @@ bool check_motion(const Scene& scene, const Entry& entry, const std::string& nam
 }
 
 void check_forces(const Scene& scene) {
-  const auto check_all = [&](const auto& list) {
-    for (const auto& force : list)
-      check_force(scene, force);
-  };
-  std::apply([&](const auto&... list) { (check_all(list), ...); }, scene.forces);
+  for_each_force(scene, [&](const auto& force) { check_force(scene, force); });
 }
 
 } // namespace hydrodae::model

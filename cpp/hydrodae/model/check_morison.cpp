@@ -1,4 +1,6 @@
 #include "hydrodae/core/text.h"
+#include "hydrodae/line/catenary_line.h"
+#include "hydrodae/line/line.h"
 #include "hydrodae/model/check.h"
 
 namespace hydrodae::model {
@@ -39,8 +41,7 @@ void check_shape(const Scene& scene, const Morison& m) {
 } // namespace
 
 void check_morison(const Scene& scene) {
-  std::vector<std::string> forces;
-  std::apply([&](const auto&... list) { (append_names(list, forces), ...); }, scene.forces);
+  const std::vector<std::string> forces = force_names(scene);
   for (const Morison& m : scene.morison) {
     const Entry entry{"morison", m.name};
     check_reference(entry, "body", m.body, names_of_bodies(scene), "body");
@@ -57,9 +58,8 @@ void check_morison(const Scene& scene) {
   if (scene.hydro && (e.water_density || e.water_depth))
     throw ModelError(e.water_density ? "environment.water_density" : "environment.water_depth",
                      "the hydrodynamic database gives density and depth of the water");
-  const bool felt = !scene.morison.empty() ||
-                    !std::get<std::vector<line::Line>>(scene.forces).empty() ||
-                    !std::get<std::vector<line::CatenaryLine>>(scene.forces).empty() ||
+  const bool felt = !scene.morison.empty() || !forces_of<line::Line>(scene).empty() ||
+                    !forces_of<line::CatenaryLine>(scene).empty() ||
                     std::any_of(scene.bodies.begin(), scene.bodies.end(),
                                 [](const Body& body) { return body.volume > 0.0 || body.mesh; });
   if (!scene.hydro && !felt && (e.water_density || e.water_depth))

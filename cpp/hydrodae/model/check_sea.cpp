@@ -3,6 +3,7 @@
 #include "hydrodae/model/check.h"
 
 #include "hydrodae/core/text.h"
+#include "hydrodae/line/line.h"
 
 namespace hydrodae::model {
 namespace {
@@ -50,8 +51,7 @@ void check_wave_order(const Scene& scene, bool slender) {
 void check_sea(const Scene& scene) {
   for (const sea::Wave& wave : scene.waves)
     check_own({"wave", wave->name}, wave, scene.solver.end_time);
-  const bool slender =
-      !scene.morison.empty() || !std::get<std::vector<line::Line>>(scene.forces).empty();
+  const bool slender = !scene.morison.empty() || !forces_of<line::Line>(scene).empty();
   const bool meshed = std::any_of(scene.bodies.begin(), scene.bodies.end(),
                                   [](const Body& body) { return body.waves_by_mesh(); });
   if (!scene.waves.empty() && !scene.hydro && !slender && !meshed)

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "hydrodae/core/text.h"
+#include "hydrodae/line/line.h"
 #include "hydrodae/model/check.h"
 
 namespace hydrodae::model {
@@ -33,7 +34,7 @@ void check_seabed(const Scene& scene) {
     return;
   if (const std::optional<Fault> wrong = scene.seabed->fault())
     throw ModelError("seabed." + wrong->key, "seabed: " + wrong->message);
-  const auto& lines = std::get<std::vector<line::Line>>(scene.forces);
+  const auto& lines = forces_of<line::Line>(scene);
   if (std::none_of(lines.begin(), lines.end(), [](const line::Line& l) { return l.seabed; }))
     throw ModelError("seabed", "this seabed is for forces of type 'line', and the case lacks one "
                                "that lies on it; a 'catenary' has a flat seabed");

@@ -3,6 +3,7 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/methods.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/element/pto_linear.h"
 #include "hydrodae/model/check.h"
 
 namespace hydrodae::model {
@@ -42,7 +43,7 @@ void check_counts(const Scene& scene) {
     check_count(scene, "solver.max_step", o.max_step, most_steps, "steps");
   if (o.baumgarte_time > 0.0)
     check_count(scene, "solver.baumgarte_time", o.baumgarte_time, most_steps, "times");
-  for (const element::PtoLinear& pto : std::get<std::vector<element::PtoLinear>>(scene.forces))
+  for (const element::PtoLinear& pto : forces_of<element::PtoLinear>(scene))
     if (pto.delay > 0.0) // steps are no longer than the delay
       check_count(scene, "force." + pto.name + ".delay", pto.delay, most_steps, "steps");
 }

@@ -1,4 +1,4 @@
-#include "hydrodae/model/scene.h"
+#include "hydrodae/model/forces.h"
 
 #include "hydrodae/joint/types.h"
 
@@ -10,6 +10,21 @@ Scene::Scene(const Scene&) = default;
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(const Scene&) = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
+
+template <class Force> const std::vector<Force>& forces_of(const Scene& scene) {
+  return std::get<std::vector<Force>>(scene.forces->lists);
+}
+template const std::vector<element::DryFriction>& forces_of(const Scene&);
+template const std::vector<element::PtoLinear>& forces_of(const Scene&);
+template const std::vector<line::CatenaryLine>& forces_of(const Scene&);
+template const std::vector<line::Line>& forces_of(const Scene&);
+template const std::vector<line::Rope>& forces_of(const Scene&);
+
+std::vector<std::string> force_names(const Scene& scene) {
+  std::vector<std::string> out;
+  for_each_force(scene, [&](const auto& force) { out.push_back(force.name); });
+  return out;
+}
 
 Fields<Joint> Joint::fields() {
   using J = Joint;

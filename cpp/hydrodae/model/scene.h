@@ -7,34 +7,16 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "hydrodae/air/chamber.h"
 #include "hydrodae/air/outlets.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/field.h"
+#include "hydrodae/core/indirect.h"
 #include "hydrodae/core/solver_options.h"
-#include "hydrodae/element/bushing.h"
-#include "hydrodae/element/constant_load.h"
-#include "hydrodae/element/dry_friction.h"
-#include "hydrodae/element/end_stop.h"
-#include "hydrodae/element/friction_lugre.h"
-#include "hydrodae/element/friction_stribeck.h"
-#include "hydrodae/element/library_law.h"
-#include "hydrodae/element/mooring_matrix.h"
-#include "hydrodae/element/pto_general.h"
-#include "hydrodae/element/pto_hydraulic.h"
-#include "hydrodae/element/pto_lagged.h"
-#include "hydrodae/element/pto_linear.h"
-#include "hydrodae/element/pto_rotary.h"
-#include "hydrodae/element/python_law.h"
-#include "hydrodae/element/spring_damper.h"
 #include "hydrodae/hull/mesh.h"
 #include "hydrodae/hydro/database.h"
-#include "hydrodae/line/catenary_line.h"
-#include "hydrodae/line/line.h"
-#include "hydrodae/line/rope.h"
 #include "hydrodae/model/constraint.h"
 #include "hydrodae/model/controller.h"
 #include "hydrodae/model/input_file.h"
@@ -46,7 +28,6 @@
 #include "hydrodae/sea/gauge.h"
 #include "hydrodae/sea/wave.h"
 #include "hydrodae/water/morison.h"
-#include "hydrodae/water/viscous_damping.h"
 
 namespace hydrodae::model {
 
@@ -300,19 +281,7 @@ struct OutputOptions {
   }
 };
 
-/// Kinds of forces, in the order in which the case reader and the system visit them. A new kind
-/// needs one header in element/ and one entry here.
-using Forces = std::tuple<std::vector<element::MooringMatrix>, std::vector<element::PtoLinear>,
-                          std::vector<element::SpringDamper>, std::vector<element::ConstantLoad>,
-                          std::vector<water::ViscousDamping>, std::vector<element::DryFriction>,
-                          std::vector<element::PtoHydraulic>, std::vector<element::FrictionLugre>,
-                          std::vector<element::Bushing>, std::vector<element::PythonLoad>,
-                          std::vector<element::PythonWrench>, std::vector<element::PtoGeneral>,
-                          std::vector<element::PtoRotary>, std::vector<element::FrictionStribeck>,
-                          std::vector<element::EndStop>, std::vector<line::Rope>,
-                          std::vector<line::CatenaryLine>, std::vector<element::LibraryLoad>,
-                          std::vector<element::LibraryWrench>, std::vector<line::Line>,
-                          std::vector<element::PtoLagged>>;
+struct Forces;
 
 struct Scene {
   // Defined once in scene.cpp, because every list of forces is copied and freed there.
@@ -333,7 +302,7 @@ struct Scene {
   std::vector<Mode> modes;
   std::vector<Attachment> attachments;
   std::vector<Marker> markers;
-  Forces forces;
+  Indirect<Forces> forces; ///< lists by type (model/forces.h)
   std::vector<water::Morison> morison;
   std::vector<air::Chamber> chambers;
   std::vector<air::Piston> pistons;
@@ -355,6 +324,11 @@ struct Scene {
   std::optional<SecondOrder> second_order;
   std::optional<Seabed> seabed;
 };
+
+/// Forces of one type, and the names of all. A file that needs no other type includes the header of
+/// this one; model/forces.h lists all types.
+template <class Force> const std::vector<Force>& forces_of(const Scene& scene);
+std::vector<std::string> force_names(const Scene& scene);
 
 /// Checks that involve several entries: names exist and are unique, masses and inertias are
 /// physical, the database covers the scene. Throws ModelError with the path of the faulty key.

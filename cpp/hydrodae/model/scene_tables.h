@@ -43,15 +43,4 @@ constexpr bool is_required_table(std::string_view name) {
   return name == "body" || name == "solver";
 }
 
-template <class... Force, class Visit>
-void for_each_force_type(std::type_identity<std::tuple<std::vector<Force>...>>,
-                         const Visit& visit) {
-  (visit(std::type_identity<Force>{}), ...);
-}
-
-/// Calls `visit(std::type_identity<Force>{})` for the struct of every kind of force.
-template <class Visit> void for_each_force_type(const Visit& visit) {
-  for_each_force_type(std::type_identity<Forces>{}, visit);
-}
-
 } // namespace hydrodae::model

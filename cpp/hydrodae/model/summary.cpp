@@ -1,8 +1,10 @@
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "hydrodae/core/text.h"
 #include "hydrodae/joint/path.h"
+#include "hydrodae/model/forces.h"
 #include "hydrodae/model/motion.h"
 
 namespace hydrodae::model {
@@ -139,14 +141,11 @@ std::string summary(const Scene& scene) {
   for (const Constraint& constraint : scene.constraints)
     write_constraint(out, scene, constraint);
   bool any_force = false;
-  const auto write_list = [&](const auto& list) {
-    if (!list.empty() && !any_force)
+  for_each_force(scene, [&](const auto& force) {
+    if (!std::exchange(any_force, true))
       out << "  forces:\n";
-    any_force = any_force || !list.empty();
-    for (const auto& force : list)
-      write_force(out, force);
-  };
-  std::apply([&](const auto&... list) { (write_list(list), ...); }, scene.forces);
+    write_force(out, force);
+  });
   if (!scene.morison.empty())
     out << "  morison elements:\n";
   for (const water::Morison& m : scene.morison)

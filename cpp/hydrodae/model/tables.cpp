@@ -5,6 +5,7 @@
 #include "hydrodae/core/nested.h"
 #include "hydrodae/joint/types.h"
 #include "hydrodae/model/field_info.h"
+#include "hydrodae/model/forces.h"
 #include "hydrodae/model/joint_keys.h"
 #include "hydrodae/model/scene_tables.h"
 
@@ -122,7 +123,7 @@ struct Collector {
   void operator()(const std::string& name, std::vector<Joint> Scene::*) const {
     out.push_back(joint_table(name));
   }
-  void operator()(const std::string& name, Forces Scene::*) const {
+  void operator()(const std::string& name, Indirect<Forces> Scene::*) const {
     out.push_back(typed_table(name, "What loads the bodies beside weight, water and joints.",
                               [](const auto& visit) { for_each_force_type(visit); }));
   }

@@ -7,6 +7,7 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/model/forces.h"
 
 namespace hydrodae::run {
 
@@ -73,20 +74,15 @@ bool reached(double instant, double t) {
 constexpr std::string_view time_input = "time";
 constexpr std::size_t no_column = static_cast<std::size_t>(-1);
 
-template <class List> bool calls_functions(const List& forces) {
-  return std::any_of(forces.begin(), forces.end(), [](const auto& force) {
-    if constexpr (requires { force.function; })
-      return static_cast<bool>(force.function);
-    else
-      return false;
-  });
-}
-
 } // namespace
 
 bool asks_outside(const model::Scene& scene) {
-  return std::apply([](const auto&... list) { return (calls_functions(list) || ...); },
-                    scene.forces) ||
+  bool called = false;
+  model::for_each_force(scene, [&](const auto& force) {
+    if constexpr (requires { force.function; })
+      called = called || static_cast<bool>(force.function);
+  });
+  return called ||
          std::any_of(scene.constraints.begin(), scene.constraints.end(),
                      [](const model::Constraint& c) {
                        const auto* driven = c.as<model::DrivenCoordinate>();

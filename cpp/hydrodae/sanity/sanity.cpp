@@ -11,6 +11,9 @@
 #include "hydrodae/build/assemble.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/hydro/coverage.h"
+#include "hydrodae/line/catenary_line.h"
+#include "hydrodae/line/line.h"
+#include "hydrodae/line/rope.h"
 #include "hydrodae/system/mechanisms.h"
 #include "hydrodae/system/residual.h"
 #include "hydrodae/system/retract.h"
@@ -241,7 +244,7 @@ void judge_stretch(const model::Scene& scene, std::vector<Finding>& out) {
     judge(line, (line.point_b - line.point_a).norm(),
           std::accumulate(line.length.begin(), line.length.end(), 0.0), softest);
   };
-  for (const line::Rope& rope : std::get<std::vector<line::Rope>>(scene.forces)) {
+  for (const line::Rope& rope : model::forces_of<line::Rope>(scene)) {
     double chord = 0.0;
     for (std::size_t i = 1; i < rope.points.size(); ++i)
       chord += (rope.points[i] - rope.points[i - 1]).norm();
@@ -249,9 +252,9 @@ void judge_stretch(const model::Scene& scene, std::vector<Finding>& out) {
         !rope.winch_length.empty() ? rope.winch_length.front() : rope.length.value_or(chord);
     judge(rope, chord, length, rope.stiffness);
   }
-  for (const auto& line : std::get<std::vector<line::CatenaryLine>>(scene.forces))
+  for (const auto& line : model::forces_of<line::CatenaryLine>(scene))
     judge_line(line);
-  for (const line::Line& line : std::get<std::vector<line::Line>>(scene.forces))
+  for (const line::Line& line : model::forces_of<line::Line>(scene))
     if (!line.free_end)
       judge_line(line);
 }
@@ -289,7 +292,7 @@ void judge_water(const model::Scene& scene, std::vector<Finding>& out) {
            ": its seabed is at z = " + rounded_text(-depth, 4) + " m, that of the scene at " +
                rounded_text(-water.depth, 4) + " m");
   };
-  for (const line::Line& line : std::get<std::vector<line::Line>>(scene.forces)) {
+  for (const line::Line& line : model::forces_of<line::Line>(scene)) {
     if (line.water_density && water.density > 0.0 && *line.water_density != water.density)
       tell(line.name, false,
            " is in water of " + rounded_text(*line.water_density, 6) + " kg/m3, the scene in " +
@@ -297,7 +300,7 @@ void judge_water(const model::Scene& scene, std::vector<Finding>& out) {
     if (line.seabed && line.seabed_depth)
       other_bed(line.name, *line.seabed_depth);
   }
-  for (const auto& line : std::get<std::vector<line::CatenaryLine>>(scene.forces)) {
+  for (const auto& line : model::forces_of<line::CatenaryLine>(scene)) {
     const Shape hangs = shape(line);
     // part of its length: 1/8 of the weight of steel is 0.1 % of all
     constexpr double hardly = 0.01;

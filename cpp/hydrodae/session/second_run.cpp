@@ -8,6 +8,7 @@
 #include "hydrodae/control/law.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/model/forces.h"
 #include "hydrodae/run/controllers.h"
 #include "hydrodae/run/simulation.h"
 
@@ -114,17 +115,13 @@ double divisor(const SecondRunPlan& plan, int order) {
 /// that loads depend on. Runs with looser tolerance would take the same steps and make the same
 /// error.
 bool has_firm_bounds(const model::Scene& scene) {
-  const auto is_late = [](const auto& list) {
-    return std::any_of(list.begin(), list.end(), [](const auto& force) {
-      if constexpr (requires { force.delay; })
-        return force.delay > 0.0;
-      else
-        return false;
-    });
-  };
-  return scene.solver.max_step > 0.0 || !scene.controllers.empty() ||
-         (scene.hydro && scene.hydro->reads().kernel) ||
-         std::apply([&](const auto&... list) { return (is_late(list) || ...); }, scene.forces);
+  bool late = false;
+  model::for_each_force(scene, [&](const auto& force) {
+    if constexpr (requires { force.delay; })
+      late = late || force.delay > 0.0;
+  });
+  return late || scene.solver.max_step > 0.0 || !scene.controllers.empty() ||
+         (scene.hydro && scene.hydro->reads().kernel);
 }
 
 } // namespace

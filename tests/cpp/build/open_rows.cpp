@@ -7,6 +7,7 @@
 #include "hydrodae/check/examine.h"
 #include "hydrodae/io/case_reader.h"
 #include "hydrodae/measure/observer.h"
+#include "hydrodae/model/forces.h"
 #include "hydrodae/simulation.h"
 #include "hydrodae/statics/equilibrium.h"
 #include "support.h"
@@ -22,7 +23,7 @@ void add_friction(model::Scene& scene, const std::string& joint) {
   friction.name = "dry";
   friction.joint = joint;
   friction.static_load = 0.5;
-  std::get<std::vector<element::DryFriction>>(scene.forces).push_back(friction);
+  std::get<std::vector<element::DryFriction>>(scene.forces->lists).push_back(friction);
 }
 
 model::Joint jointed(const std::string& type, const std::string& name, const std::string& a,

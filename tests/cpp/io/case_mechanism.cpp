@@ -2,6 +2,7 @@
 /// bodies.
 
 #include "hydrodae/io/case_reader.h"
+#include "hydrodae/model/forces.h"
 #include "support.h"
 
 using namespace hydrodae;
@@ -197,10 +198,11 @@ TEST_CASE("a case with a mechanism becomes a scene") {
   CHECK(lift.drive(5.0)[0] == doctest::Approx(2.0)); // the spline was made
   CHECK(lift.drive(10.0)[0] == doctest::Approx(5.0));
 
-  const auto& spring = std::get<std::vector<element::SpringDamper>>(scene.forces)[0];
+  const auto& spring = std::get<std::vector<element::SpringDamper>>(scene.forces->lists)[0];
   CHECK(spring.law().stiffness == 7.0);
   CHECK(spring.law().length == 5.0);
-  CHECK(std::get<std::vector<element::ConstantLoad>>(scene.forces)[0].moment == Vector3(0, 3, 0));
+  CHECK(std::get<std::vector<element::ConstantLoad>>(scene.forces->lists)[0].moment ==
+        Vector3(0, 3, 0));
 }
 
 TEST_CASE("the pitch of a screw is read") {

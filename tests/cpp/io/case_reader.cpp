@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "hydrodae/core/text.h"
+#include "hydrodae/model/forces.h"
 #include "hydrodae/model/scene_tables.h"
 #include "support.h"
 
@@ -12,7 +13,7 @@ using namespace hydrodae::tests;
 namespace {
 
 template <class T> const std::vector<T>& forces(const model::Scene& scene) {
-  return std::get<std::vector<T>>(scene.forces);
+  return std::get<std::vector<T>>(scene.forces->lists);
 }
 
 std::string force_types() {

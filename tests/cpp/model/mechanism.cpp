@@ -1,6 +1,7 @@
 /// Joints with parameters, constraints and the forces between bodies, as structs.
 
 #include "hydrodae/joint/types.h"
+#include "hydrodae/model/forces.h"
 #include "hydrodae/model/motion.h"
 #include "support.h"
 
@@ -279,7 +280,7 @@ TEST_CASE("names of constraints are unique") {
 
 TEST_CASE("forces between bodies have two ends and a direction") {
   Scene scene = machine();
-  auto& springs = std::get<std::vector<element::SpringDamper>>(scene.forces);
+  auto& springs = std::get<std::vector<element::SpringDamper>>(scene.forces->lists);
   springs.resize(1);
   element::SpringDamper& spring = springs[0];
   spring.name = "spring";
@@ -299,7 +300,7 @@ TEST_CASE("forces between bodies have two ends and a direction") {
                           "the reference pose: the force has no direction there, and is not zero "
                           "(a linear spring with length = 0 is)");
   springs.clear();
-  auto& loads = std::get<std::vector<element::ConstantLoad>>(scene.forces);
+  auto& loads = std::get<std::vector<element::ConstantLoad>>(scene.forces->lists);
   loads.resize(1);
   loads[0].name = "load";
   loads[0].body = "sle";
@@ -309,7 +310,7 @@ TEST_CASE("forces between bodies have two ends and a direction") {
 
 TEST_CASE("a power take-off needs a joint with one motion") {
   Scene scene = machine();
-  auto& ptos = std::get<std::vector<element::PtoLinear>>(scene.forces);
+  auto& ptos = std::get<std::vector<element::PtoLinear>>(scene.forces->lists);
   ptos.resize(1);
   ptos[0].name = "pto";
   ptos[0].joint = "hinge";
@@ -346,7 +347,7 @@ TEST_CASE("a summary tells what joints keep and what constraints follow") {
   gear.name = "gear";
   gear.ratio = -2.0;
   scene.constraints = {crank, motor, lock, lift, gear};
-  auto& springs = std::get<std::vector<element::SpringDamper>>(scene.forces);
+  auto& springs = std::get<std::vector<element::SpringDamper>>(scene.forces->lists);
   springs.resize(1);
   springs[0].name = "spring";
   springs[0].body_a = "ground";

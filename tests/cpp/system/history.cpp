@@ -9,6 +9,7 @@
 #include "hydrodae/element/pto_linear.h"
 #include "hydrodae/hydro/database.h"
 #include "hydrodae/math/bspline.h"
+#include "hydrodae/model/forces.h"
 #include "hydrodae/model/scene.h"
 #include "hydrodae/system/residual.h"
 
@@ -133,7 +134,7 @@ model::Scene sliding(double delay) {
   pto.stiffness = 3.0;
   pto.damping = 2.0;
   pto.delay = delay;
-  std::get<std::vector<element::PtoLinear>>(scene.forces).push_back(pto);
+  std::get<std::vector<element::PtoLinear>>(scene.forces->lists).push_back(pto);
   return scene;
 }
 
