@@ -24,7 +24,8 @@ from hydrodae.hdb.readers.aqwa_common import (
 )
 from hydrodae.hdb.readers.aqwa_listing import read_listing
 from hydrodae.hdb.readers.formats import Format
-from hydrodae.hdb.readers.source import Scales, SourceData
+from hydrodae.hdb.readers.setting import Setting
+from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.readers.text import only, read_lines, row_of
 from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.support.arrays import Array
@@ -185,7 +186,7 @@ class _Ah1:
         if alone:
             text = "ADDEDMASS_HF holds that of each structure alone: estimated from A and B instead"
             data.findings.append(Finding("info", "added_mass_inf of the source", text))
-        data.scales = Scales(unit=unit)
+        data.setting = Setting(unit=unit)
         data.excitation = to_world(np.asarray(flat[:, kept], dtype=complex), k, heading, centers)
         buoyancy = self.block("COB", (n,), 3)
         volume = self.block("DISPLACEMENT", (n,), 1)[:, 0]

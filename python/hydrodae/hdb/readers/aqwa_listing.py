@@ -24,7 +24,8 @@ from hydrodae.hdb.readers.aqwa_common import (
     unit_of_mass,
 )
 from hydrodae.hdb.readers.aqwa_pages import pages_of_structures, read_matrix, read_radiation
-from hydrodae.hdb.readers.source import Scales, SourceData
+from hydrodae.hdb.readers.setting import Setting
+from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.readers.text import NUMBER, number, read_text
 from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.support.arrays import Array, Complex
@@ -82,7 +83,7 @@ def read_listing(path: Path) -> SourceData:
     limits = (unit * a, unit * b, None if a_inf is None else unit * a_inf)
     names = structure_names(path, len(structures))
     data = aqwa_data(path, names, omega, limits, heading, centers, (rho, gravity, depth))
-    data.scales = Scales(unit=unit)
+    data.setting = Setting(unit=unit)
     if not any(_END.search(line) for line in lines[-END_LINES:]):
         lost = a_inf is None  # the last page but that line
         text = f"{path.name} has no line FINISH DATE at its end: it is cut short"

@@ -20,7 +20,8 @@ from hydrodae.hdb.readers import nemoh_hydrostatics as nh
 from hydrodae.hdb.readers import tecplot
 from hydrodae.hdb.readers.mesh_beside import statics_of_mesh
 from hydrodae.hdb.readers.nemoh_cal import CalBody, NemohCal, read_cal
-from hydrodae.hdb.readers.source import Scales, SourceData
+from hydrodae.hdb.readers.setting import Setting
+from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.support.arrays import Array, Complex
 from hydrodae.support.naming import names_file
@@ -111,7 +112,7 @@ def _read_tables(root: Path, cal: NemohCal, names: list[str], files: list[Path])
         title=f"Nemoh folder {root.name}",
         files=files,
         findings=findings,
-        scales=Scales(tuple(f"{names[i]}.{DOFS[d]}" for i, d in forces), wave_point=cal.origin),
+        setting=Setting(tuple(f"{names[i]}.{DOFS[d]}" for i, d in forces), wave_point=cal.origin),
     )
 
 

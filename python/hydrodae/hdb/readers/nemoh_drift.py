@@ -42,7 +42,7 @@ def find(source: Path) -> list[Path]:
     return [p for folder in folders for p in sorted(folder.iterdir()) if _NAME.search(p.name)]
 
 
-def read(path: Path, setting: Setting, findings: list[Finding]) -> Entries:
+def read(path: Path, setting: Setting, findings: list[Finding]) -> list[Entries]:
     """Read one file.
 
     Raises
@@ -61,14 +61,16 @@ def read(path: Path, setting: Setting, findings: list[Finding]) -> Entries:
         ).about("format", "head", file=path, line=1)
     rows = read_rows(path, COLUMNS)
     check_parts(rows, findings)
-    entries = Entries(
-        path,
-        "difference" if match[1].upper() == "M" else "sum",
-        "pressure",
-        UNITS[unit[1].lower()](rows.waves),
-        np.radians(rows.headings),
-        setting.labels_of(rows),
-        setting.rho * setting.gravity * rows.loads.conj(),
-        rows.lines,
-    )
-    return entries.phased(np.tile(setting.wave_point, (rows.lines.size, 1)), setting)
+    return [
+        Entries(
+            path,
+            "difference" if match[1].upper() == "M" else "sum",
+            "pressure",
+            UNITS[unit[1].lower()](rows.waves),
+            np.radians(rows.headings),
+            setting.labels_of(rows),
+            setting.rho * setting.gravity * rows.loads.conj(),
+            rows.lines,
+            setting.wave_point,
+        )
+    ]

@@ -13,11 +13,11 @@ import numpy as np
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
-from hydrodae.hdb.labels import DOFS
+from hydrodae.hdb.labels import six_of_each
 from hydrodae.hdb.readers.orcawave import SYMMETRIES, Vessel
 from hydrodae.hdb.readers.orcawave_units import units_of
 from hydrodae.hdb.readers.orcayaml import read_yaml
-from hydrodae.hdb.readers.quadratic import Entries
+from hydrodae.hdb.readers.quadratic import Entries, of_coordinates
 from hydrodae.hdb.readers.setting import Setting
 from hydrodae.hdb.readers.symmetric import mirrored_forces, turned_forces
 from hydrodae.hdb.readers.text import read_text
@@ -84,9 +84,12 @@ def _of_vessel(
             kind = "mean"
             waves, heading, values = _diagonal(read, loads)
         values = values * read.scale * read.units.force / read.units.length**2
-        entries = _entries(path, kind, read, body, (waves, heading, values))
+        waves, heading, values = _all_round(read.symmetry, waves, heading, values)
         place = read.phase_place(loads) if pairs else read.point
-        found.append(entries.phased(np.tile(place[:2], (len(entries.labels), 1)), setting))
+        labels, of = six_of_each([body]), (kind, METHOD)
+        found.append(
+            of_coordinates(path, of, (waves, heading), labels, values, wave_point=place[:2])
+        )
     return found
 
 
@@ -114,34 +117,17 @@ def _pairs(read: Vessel, rows: list[Any], sense: float) -> tuple[Array, Array, C
     return table[:, :2], np.radians(table[:, 2:4]), values
 
 
-def _entries(
-    path: Path, kind: str, read: Vessel, body: str, table: tuple[Array, Array, Complex]
-) -> Entries:
-    """Return the lines of a table, with those that the symmetry of the vessel adds."""
-    waves, heading, values = table
-    if read.symmetry != "None" and not np.array_equal(heading[:, 0], heading[:, 1]):
-        raise DatabaseError(
-            f"Symmetry {read.symmetry!r} with pairs of headings: save all directions in OrcaFlex "
-            f"(Symmetry: None)"
-        ).about("unsupported", "Symmetry")
-    if read.symmetry != "None":
-        waves, heading, values = _all_round(read.symmetry, waves, heading, values)
-    return Entries(
-        path,
-        kind,
-        METHOD,
-        np.repeat(waves, len(DOFS), axis=0),
-        np.repeat(heading, len(DOFS), axis=0),
-        [f"{body}.{motion}" for motion in DOFS] * len(waves),
-        values.reshape(-1),
-        np.zeros(values.size, dtype=int),
-    )
-
-
 def _all_round(
     symmetry: str, waves: Array, heading: Array, values: Complex
 ) -> tuple[Array, Array, Complex]:
     """Add the mirror images, or turn the loads of a body of revolution, one pair after another."""
+    if symmetry == "None":
+        return waves, heading, values
+    if not np.array_equal(heading[:, 0], heading[:, 1]):
+        raise DatabaseError(
+            f"Symmetry {symmetry!r} with pairs of headings: save all directions in OrcaFlex "
+            f"(Symmetry: None)"
+        ).about("unsupported", "Symmetry")
     found: list[tuple[Array, Array, Complex]] = []
     for pair in np.unique(waves, axis=0):
         here = np.all(waves == pair, axis=1)

@@ -15,6 +15,7 @@ from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.second_order import SecondOrderTable
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import Label, read_labels
+from hydrodae.hdb.readers.setting import Setting
 from hydrodae.support.arrays import Array, Complex
 
 #: What a source holds of each frequency.
@@ -38,29 +39,6 @@ class Water:
     density: float | None = None
     depth: float | None = None
     gravity: float | None = None
-
-
-@dataclass(frozen=True)
-class Scales:
-    """How a source writes what stands beside its tables, for those of second order.
-
-    Attributes
-    ----------
-    modes : tuple of str
-        Coordinate of each number of a mode, from 1 on; empty: six of each body.
-    length, first_column
-        ULEN [m] and IPEROUT of WAMIT.
-    unit : float
-        Newtons in the unit of force of AQWA.
-    wave_point : (2,) tuple
-        Where the wave of Nemoh has its phase zero [m].
-    """
-
-    modes: tuple[str, ...] = ()
-    length: float = 1.0
-    first_column: int = 1
-    unit: float = 1.0
-    wave_point: tuple[float, float] = (0.0, 0.0)
 
 
 @dataclass
@@ -96,8 +74,8 @@ class SourceData:
     statics_about : dict of functions
         By body, hydrostatics that the source holds about its point [m], which it does not state;
         text where they are not complete.
-    scales : Scales
-        How the source writes tables of second order.
+    setting : Setting
+        How the source writes tables of second order; its water and points are left out.
     second_order : dict of SecondOrderTable
         As in `HydroDatabase`.
     """
@@ -125,7 +103,7 @@ class SourceData:
     extra: dict[str, SourceTable] = field(default_factory=dict)
     mode_stiffness: dict[str, Array] = field(default_factory=dict)
     statics_about: dict[str, Callable[[Array], Hydrostatics | str]] = field(default_factory=dict)
-    scales: Scales = field(default_factory=Scales)
+    setting: Setting = field(default_factory=Setting)
     second_order: dict[str, SecondOrderTable] = field(default_factory=dict)
 
     @property

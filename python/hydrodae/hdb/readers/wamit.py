@@ -19,7 +19,7 @@ from hydrodae.hdb.labels import DOFS, bodies_of, read_labels, six_of_each
 from hydrodae.hdb.readers.formats import Format
 from hydrodae.hdb.readers.mesh_beside import statics_of_file
 from hydrodae.hdb.readers.setting import Setting
-from hydrodae.hdb.readers.source import Scales, SourceData, Water, without_hydrostatics
+from hydrodae.hdb.readers.source import SourceData, Water, without_hydrostatics
 from hydrodae.hdb.readers.text import LARGEST_COUNT, Rows, read_rows
 from hydrodae.hdb.readers.wamit_control import Control, Statics, beside, mesh_of, read_control
 from hydrodae.hdb.readers.wamit_guesses import (
@@ -218,7 +218,7 @@ def _tables(run: Run, water: Water, findings: list[Finding]) -> tuple[SourceData
         added_mass_inf=None if limit is None else scale * limit,
         files=run.files,
         findings=findings,
-        scales=Scales(six_of_each(names), setting.length, option),
+        setting=replace(setting, labels=six_of_each(names)),
         froude_krylov=forces.get("froude_krylov"),
         diffraction=forces.get("diffraction"),
         excitation=forces.get("excitation"),
@@ -331,7 +331,7 @@ def _forces(
 def _attach_hydrostatics(data: SourceData, run: Run, motions: Motions) -> None:
     """Waterplane from `.hst` or the listing, or from meshes; stiffness of generalised modes."""
     control, names, rows = run.control, motions.names, run.stiffness
-    length = data.scales.length
+    length = data.setting.length
     table: Array | None = None
     if rows is not None:
         data.files.append(rows.path)
@@ -382,7 +382,7 @@ def _attach_waterplane(data: SourceData, name: str, statics: Statics, block: Arr
     if block is None or point is None or volume is None or buoyancy is None or gravity is None:
         return False
     turns = np.arange(6) >= 3
-    block = block * data.scales.length ** (2.0 + turns[:, None] + turns)
+    block = block * data.setting.length ** (2.0 + turns[:, None] + turns)
     mass = volume if statics.mass_over_rho is None else statics.mass_over_rho
     block[[3, 4], [3, 4]] += mass * gravity[2]
     waterplane = Hydrostatics.from_stiffness(
