@@ -55,7 +55,7 @@ def read(path: Path, setting: Setting, findings: list[Finding]) -> list[Entries]
     found: list[Entries] = []
     for body, vessel in zip(setting.bodies, types, strict=True):
         try:
-            read_vessel = Vessel(path, vessel, setting.depth, setting.gravity, units)
+            read_vessel = Vessel(path, vessel, units)
             found += _of_vessel(path, vessel, read_vessel, body, setting)
         except DatabaseError as error:
             raise error.in_file(path) from None

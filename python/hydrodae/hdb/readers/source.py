@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from hydrodae.hdb.database.extra import SourceTable
 from hydrodae.hdb.database.findings import Finding
@@ -16,6 +16,7 @@ from hydrodae.hdb.database.second_order import SecondOrderTable
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import Label, read_labels
 from hydrodae.hdb.readers.setting import Setting
+from hydrodae.hdb.relations.dispersion import phase_at
 from hydrodae.support.arrays import Array, Complex
 
 #: What a source holds of each frequency.
@@ -118,6 +119,34 @@ class SourceData:
             value = getattr(self, name)
             if value is not None:
                 setattr(self, name, value[kept])
+
+    def to_origin(self, places: Mapping[str, ArrayLike]) -> None:
+        """Move the phase zero of the wave, at a place of each body [m], to the origin of the world.
+
+        Forces F with the phase zero at x_0 become F e^{-i k x_0'}, x_0' along the wave.
+        """
+        body = [label.body for label in self.labels]
+        for name in TABLES[2:]:
+            force = getattr(self, name)
+            if force is None:
+                continue
+            turned = force.copy()
+            for owner, place in places.items():
+                of_body = [i for i, of in enumerate(body) if of == owner]
+                phase = phase_at(
+                    place, self.omega[:, None], self.heading, self.water_depth, self.gravity
+                )
+                turned[:, :, of_body] *= np.exp(-1j * phase)[:, :, None]
+            setattr(self, name, turned)
+
+    def add_statics(
+        self, body: str, stiffness: Array, point: Array, volume: float, buoyancy: Array
+    ) -> None:
+        """Take the waterplane of a buoyancy stiffness (6, 6) [N/m, N, N m] about a point [m]."""
+        statics = Hydrostatics.from_stiffness(
+            stiffness, point, volume, buoyancy, self.rho, self.gravity
+        )
+        self.hydrostatics[body] = (statics, point)
 
     def assume_point(self, body: str, point: Array, why: Finding) -> None:
         """Take a reference point that the source does not state."""

@@ -21,7 +21,7 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.labels import bodies_of
 from hydrodae.hdb.readers.source import SourceData
-from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.hdb.relations.dispersion import phase_at
 from hydrodae.hdb.relations.noise import scatter
 from hydrodae.support.arrays import Complex
 
@@ -188,10 +188,9 @@ def _local(data: SourceData, force: Complex, body: str, heading: int) -> Complex
     point = data.reference_points.get(body)
     if point is None:
         return force[:, heading]
-    k = wavenumber(data.omega, data.water_depth, data.gravity)
     beta = data.heading[heading]
-    along = point[0] * np.cos(beta) + point[1] * np.sin(beta)
-    return np.asarray(force[:, heading] * np.exp(1j * k * along)[:, None])
+    phase = phase_at(point, data.omega, beta, data.water_depth, data.gravity)
+    return np.asarray(force[:, heading] * np.exp(1j * phase)[:, None])
 
 
 def _horizontal(data: SourceData, force: Complex, body: str) -> float | None:

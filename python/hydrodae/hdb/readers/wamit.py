@@ -14,7 +14,6 @@ import numpy as np
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.coordinates import unique_names
 from hydrodae.hdb.database.findings import Finding
-from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import DOFS, bodies_of, read_labels, six_of_each
 from hydrodae.hdb.readers.formats import Format
 from hydrodae.hdb.readers.mesh_beside import statics_of_file
@@ -385,10 +384,7 @@ def _attach_waterplane(data: SourceData, name: str, statics: Statics, block: Arr
     block = block * data.setting.length ** (2.0 + turns[:, None] + turns)
     mass = volume if statics.mass_over_rho is None else statics.mass_over_rho
     block[[3, 4], [3, 4]] += mass * gravity[2]
-    waterplane = Hydrostatics.from_stiffness(
-        data.rho * data.gravity * block, point, volume, point + buoyancy, data.rho, data.gravity
-    )
-    data.hydrostatics[name] = (waterplane, point)
+    data.add_statics(name, data.rho * data.gravity * block, point, volume, point + buoyancy)
     return True
 
 
