@@ -5,6 +5,7 @@ P + iQ is conjugated here: AQWA's phases are lags, from the crest at the centre 
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +17,7 @@ from hydrodae.hdb.readers.quadratic import Entries, of_coordinates
 from hydrodae.hdb.readers.setting import Setting
 from hydrodae.hdb.readers.text import number, read_lines
 
+NAMES = re.compile(r"\.qtf$", re.IGNORECASE)
 Numbers = list[tuple[int, float]]
 
 

@@ -19,6 +19,7 @@ from hydrodae.hdb.readers.setting import Setting
 from hydrodae.hdb.readers.text import NUMBER, number, read_lines
 from hydrodae.support.arrays import Array
 
+NAMES = re.compile(r"\.rao$", re.IGNORECASE)
 #: Values print five digits, so that w + d is a frequency of the table to 2e-4 of it.
 SAME_FREQUENCY = 2e-4
 #: What a name says of mean drift: far field, middle field; else pressures.

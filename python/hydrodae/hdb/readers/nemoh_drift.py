@@ -14,12 +14,13 @@ import numpy as np
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.readers.quadratic import Entries
+from hydrodae.hdb.readers.rows import check_parts, read_rows
 from hydrodae.hdb.readers.setting import Setting
-from hydrodae.hdb.readers.text import read_lines, read_rows
-from hydrodae.hdb.readers.wamit_tables import LOAD, PAIRS, check_parts
+from hydrodae.hdb.readers.text import read_lines
+from hydrodae.hdb.readers.wamit_tables import LOAD, PAIRS
 
 COLUMNS = replace(PAIRS, meaning=f"two frequencies, two headings, {LOAD}")
-_NAME = re.compile(r"OUT_QTF([MP])(_.*)?\.dat$", re.IGNORECASE)
+NAMES = re.compile(r"OUT_QTF([MP])(_.*)?\.dat$", re.IGNORECASE)
 #: Words of the head of the first column, and how it gives rad/s.
 UNITS = {
     "rad/s": lambda x: x,
@@ -30,7 +31,7 @@ UNITS = {
 
 def find(source: Path) -> list[Path]:
     """Return the files of a folder, or in `results/QTF` or `QTF` of it, or a file of that name."""
-    if source.is_file() and _NAME.search(source.name):
+    if source.is_file() and NAMES.search(source.name):
         return [source]
     if source.is_file() and source.suffix.lower() != ".cal":
         return []
@@ -39,7 +40,7 @@ def find(source: Path) -> list[Path]:
     below = [p for p in sorted(root.iterdir()) if p.is_dir() and p.name.lower() in names]
     deeper = [p for folder in below for p in sorted(folder.iterdir())]
     folders = [root, *below, *(p for p in deeper if p.is_dir() and p.name.lower() in names)]
-    return [p for folder in folders for p in sorted(folder.iterdir()) if _NAME.search(p.name)]
+    return [p for folder in folders for p in sorted(folder.iterdir()) if NAMES.search(p.name)]
 
 
 def read(path: Path, setting: Setting, findings: list[Finding]) -> list[Entries]:
@@ -50,7 +51,7 @@ def read(path: Path, setting: Setting, findings: list[Finding]) -> list[Entries]
     DatabaseError
         A line of another form, a head without units, or a mode of another body.
     """
-    match = _NAME.search(path.name)
+    match = NAMES.search(path.name)
     assert match is not None  # that is what `find` returns
     head = next(iter(read_lines(path)), "")
     unit = re.search(r"1\[(\S+?)\]", head)

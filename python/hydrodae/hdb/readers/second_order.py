@@ -87,7 +87,7 @@ def unread_beside(path: Path, taken: Sequence[Path]) -> list[Path]:
     runs = {p.stem.lower() for p in files if p.suffix.lower() in FIRST_ORDER}
     runs -= {path.stem.lower()}
     alone = [p for p in files if p.stem.lower() not in runs and p.suffix.lower() not in FIRST_ORDER]
-    found = [p for p in alone if any(reader.find(p) == [p] for reader in SEPARATE)]
+    found = [p for p in alone if any(r.NAMES.search(p.name) and r.find(p) for r in SEPARATE)]
     found += [p for p in nemoh_drift.find(folder) if p not in found]
     return [p for p in found if p not in taken and p != path]
 

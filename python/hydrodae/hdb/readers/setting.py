@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.labels import bodies_of
-from hydrodae.hdb.readers.text import Rows
+from hydrodae.hdb.readers.rows import Rows
 from hydrodae.support.arrays import Array
 
 

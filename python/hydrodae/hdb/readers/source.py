@@ -57,8 +57,8 @@ class SourceData:
     hydrostatics : dict
         By body, each with the point [m] that its waterplane moments refer to; bodies without are
         absent.
-    added_mass_inf : (n, n) array or None
-        Given by the source itself.
+    added_mass_inf, added_mass_zero : (n, n) array or None
+        Those of w = inf and w = 0, given by the source itself.
     files : list of Path
         What was read; hashed for `source_sha256`.
     findings : list of Finding
@@ -97,6 +97,7 @@ class SourceData:
     reference_points: dict[str, Array | None] = field(default_factory=dict)
     hydrostatics: dict[str, tuple[Hydrostatics, Array]] = field(default_factory=dict)
     added_mass_inf: Array | None = None
+    added_mass_zero: Array | None = None
     files: list[Path] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
     assumed_points: dict[str, Finding] = field(default_factory=dict)

@@ -17,26 +17,19 @@ from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.labels import DOFS, bodies_of, read_labels, six_of_each
 from hydrodae.hdb.readers.formats import Format
 from hydrodae.hdb.readers.mesh_beside import statics_of_file
+from hydrodae.hdb.readers.rows import Rows, check_modes, check_parts, read_rows, tabulate
 from hydrodae.hdb.readers.setting import Setting
 from hydrodae.hdb.readers.source import SourceData, Water, without_hydrostatics
-from hydrodae.hdb.readers.text import LARGEST_COUNT, Rows, read_rows
-from hydrodae.hdb.readers.wamit_control import Control, Statics, beside, mesh_of, read_control
+from hydrodae.hdb.readers.text import LARGEST_COUNT, beside, lines_beside
+from hydrodae.hdb.readers.wamit_control import BESIDE, Control, Statics, mesh_of, read_control
 from hydrodae.hdb.readers.wamit_guesses import (
     asked_findings,
-    at_infinity,
     first_column,
     settled,
     told_depth,
 )
 from hydrodae.hdb.readers.wamit_listing import is_listing, read_listing
-from hydrodae.hdb.readers.wamit_tables import (
-    COLUMNS,
-    check_modes,
-    check_parts,
-    tabulate,
-    to_omega,
-    unit,
-)
+from hydrodae.hdb.readers.wamit_tables import COLUMNS, to_omega, unit
 from hydrodae.support.arrays import Array, Complex
 
 SUFFIXES = (".1", ".2", ".3", ".3fk", ".3sc", ".hst", ".pot", ".cfg", ".mmx", ".out", ".frc")
@@ -149,14 +142,15 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
 
 def _read_run(stem: Path) -> Run:
     """Read all files of a run, each once."""
-    control = read_control(stem)
-    paths = {s: beside(stem, s) for s in (".1", ".out", ".2", ".3", ".3fk", ".3sc", ".hst")}
+    texts = lines_beside(stem, BESIDE)
+    control = read_control(stem, texts)
+    paths = {s: beside(stem, s) for s in (".1", ".2", ".3", ".3fk", ".3sc", ".hst")}
     found = {s: path for s, path in paths.items() if path is not None}
     files = {key: next((s for s in wanted if s in found), "") for key, wanted in FORCES.items()}
     if ".1" in found:
         radiation, force = read_rows(found[".1"], COLUMNS[".1"]), None
     else:
-        radiation, force = read_listing(found[".out"])  # one of both makes a stem
+        radiation, force = read_listing(*texts[".out"])  # one of both makes a stem
     forces = {} if force is None else {"excitation": force}
     for key, suffix in files.items():
         if suffix and key not in forces:
@@ -200,7 +194,7 @@ def _tables(run: Run, water: Water, findings: list[Finding]) -> tuple[SourceData
         text = f"{run.stem.name}.pot asks for {control.frequencies}, {name} holds {at.size}"
         findings.append(Finding("warning", "frequency grid", text))
     scale = unit(run.radiation.columns, setting, turns[:, None] + turns)
-    limit = at_infinity(at, a, b, findings)
+    limits = {w: scale * a[at == w][0] for w in (0.0, np.inf) if w in at}
     names = motions.names
     data = SourceData(
         coordinates=motions.coordinates,
@@ -214,7 +208,8 @@ def _tables(run: Run, water: Water, findings: list[Finding]) -> tuple[SourceData
         water_depth=setting.depth,
         name=name,
         title=f"WAMIT {run.stem.name}",
-        added_mass_inf=None if limit is None else scale * limit,
+        added_mass_inf=limits.get(np.inf),
+        added_mass_zero=limits.get(0.0),
         files=run.files,
         findings=findings,
         setting=replace(setting, labels=six_of_each(names)),
