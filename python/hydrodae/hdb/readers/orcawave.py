@@ -138,6 +138,18 @@ def read_orcawave(path: Path) -> SourceData:
     return data
 
 
+def starting(block: dict[str, Any], word: str) -> Any:
+    """Return the value of the first key that begins with a word; None without one."""
+    return next((value for key, value in block.items() if key.startswith(word)), None)
+
+
+def all_round(symmetry: str, heading: Array, force: Complex) -> tuple[Array, Complex]:
+    """Add the headings [rad] that a symmetry of OrcaFlex gives to a force (nw, nh, 6)."""
+    if symmetry == "Circular":
+        return turned_forces(heading, force)
+    return mirrored_forces(heading, force, **SYMMETRIES[symmetry])
+
+
 class Vessel:
     """Tables of one vessel type, at its first draught, in SI units, and what reads its numbers."""
 
@@ -207,9 +219,18 @@ class Vessel:
             return float(np.inf)
         return float(2.0 * np.pi / value)
 
+    def rows_of(self, rows: list[Any], key: str, waves: int, columns: int) -> Array:
+        """Return rows of periods of waves and values, without those of w = 0 and inf; [rad/s]."""
+        given = [
+            [*(self.omega_of(w) for w in row[:waves]), *row[waves:]]
+            for row in rows
+            if isinstance(row, list) and row
+        ]
+        table = self.numbers(given, key, (len(rows), columns))
+        return table[np.all(np.isfinite(table[:, :waves]) & (table[:, :waves] > 0.0), axis=1)]
+
     def _square(self, entry: dict[str, Any], first: str, unit: float) -> Array:
-        rows = next((v for key, v in entry.items() if key.startswith(first)), None)
-        table = self.numbers(rows, first, (6, 6))
+        table = self.numbers(starting(entry, first), first, (6, 6))
         return unit * table * np.outer(self.scale, self.scale)
 
     @property
@@ -248,14 +269,7 @@ class Vessel:
         heading = self.numbers(stated, "RAODirection", (len(blocks),))
         result = np.empty((self.omega.size, heading.size, 6), dtype=complex)
         for h, block in enumerate(blocks):
-            rows: list[Any] = next(
-                (v for key, v in block.items() if key.startswith("RAOPeriod")), []
-            )
-            given = [
-                [self.omega_of(row[0]), *row[1:]] for row in rows if isinstance(row, list) and row
-            ]
-            table = self.numbers(given, "LoadRAOs", (len(rows), 13))
-            table = table[np.isfinite(table[:, 0]) & (table[:, 0] > 0.0)]
+            table = self.rows_of(starting(block, "RAOPeriod") or [], "LoadRAOs", 1, 13)
             table = table[np.argsort(table[:, 0])]
             if table.shape != (self.omega.size, 13) or not np.allclose(table[:, 0], self.omega):
                 raise DatabaseError(
@@ -265,10 +279,7 @@ class Vessel:
         self.wave_point = self.phase_place(loads)
         result *= self.scale
         beta = np.radians(heading)
-        if self.symmetry == "Circular":
-            beta, result = turned_forces(beta, result)
-        else:
-            beta, result = mirrored_forces(beta, result, **SYMMETRIES[self.symmetry])
+        beta, result = all_round(self.symmetry, beta, result)
         order = np.argsort(beta)
         return beta[order], result[:, order]
 
@@ -292,9 +303,7 @@ class Vessel:
 
         None if it is about another point: then the weight may or may not be in it.
         """
-        rows = next(
-            (v for key, v in self.draught.items() if key.startswith("HydrostaticStiffnessz")), None
-        )
+        rows = starting(self.draught, "HydrostaticStiffnessz")
         block = self.numbers(rows, "HydrostaticStiffness", (3, 3))
         stiffness = np.zeros((6, 6))
         scale = self.scale[2:5]

@@ -16,6 +16,7 @@ from pathlib import Path, PureWindowsPath
 import numpy as np
 
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.readers.hydrodyn import input_of
 from hydrodae.hdb.readers.text import (
     NUMBER,
     beside,
@@ -36,9 +37,6 @@ LEAST_DENSITY = 100.0
 #: HAMS: 1, 2 wavenumber in deep and finite depth, 3 frequency, 4 period (5 wavelength).
 HAMS = {"1": 3, "2": 4, "3": 2, "4": 1}
 WAVELENGTH = 5
-#: An input of HydroDyn stands in one of so many folders, from that of the tables up [-], and has at
-#: most so many bytes.
-FOLDERS, LARGEST_INPUT = 3, 1_000_000
 #: Suffixes of the text files of a run, and what they hold: path and lines.
 BESIDE = (".cfg", ".pot", ".mmx", ".out", ".frc")
 Texts = Mapping[str, tuple[Path, list[str]]]
@@ -384,44 +382,17 @@ def _asked_of_hams(path: Path, text: str) -> Asked | None:
 
 
 def _hydrodyn(stem: Path, control: Control) -> None:
-    """Water, length and reference point of the input of HydroDyn whose `PotFile` are these tables.
+    """Water, length and reference point of the input of HydroDyn that uses these tables.
 
-    It stands in their folder or above; several that differ say nothing. Lines are `value KEY - what
-    it means`; DEFAULT stands where another input says it. Moments are about the origin.
+    Moments are about the origin. The depth is what the program takes the tables for.
     """
-    for folder in (stem.parent, *stem.parent.parents[: FOLDERS - 1]):
-        found = {p: h for p in sorted(folder.glob("*.dat")) if (h := _potfile(p, stem)) is not None}
-        if found:
-            break
-    if len(set(found.values())) != 1:
+    found = input_of(stem)
+    if found is None:
         return
-    control.files.append(next(iter(found)))
-    rho, control.likely_depth, length = next(iter(found.values()))
-    control.rho = rho if control.rho is None else control.rho
-    control.length = length if control.length is None else control.length
+    path, read = found
+    control.files.append(path)
+    control.likely_depth = None if read.depth is None else _deep(read.depth)
+    control.rho = read.rho if control.rho is None else control.rho
+    control.length = read.length if control.length is None else control.length
     if not control.points:
         control.points.append(np.zeros(3))
-
-
-def _potfile(path: Path, stem: Path) -> tuple[float | None, ...] | None:
-    """Density, depth and length of an input of HydroDyn that names one body, these tables."""
-    if not path.is_file() or path.stat().st_size > LARGEST_INPUT:
-        return None
-    text = read_text(path)
-    line = re.search(r"^(.*?)\s+PotFile\b", text, re.MULTILINE)
-    if line is None:
-        return None
-    files = re.findall(r'"([^"]*)"', line[1]) or [line[1].strip()]
-    target = PureWindowsPath(files[0])
-    above = target.parent.name.lower()
-    if len(files) != 1 or target.name.lower() != stem.name.lower():
-        return None
-    if above not in ("", stem.parent.name.lower()):
-        return None
-
-    def value(key: str) -> float | None:
-        found = re.search(rf"^\s*({NUMBER})\s+{key}\b", text, re.MULTILINE | re.IGNORECASE)
-        return None if found is None else number(found[1])
-
-    depth = value("WtrDpth")
-    return value("WtrDens"), None if depth is None else _deep(depth), value("WAMITULEN")

@@ -135,17 +135,6 @@ def first_column(
     (`hydrodae.hdb.relations.causality`) by one of the four meanings only. Where the tables are too
     short for that, or end before B falls, damping and force of heave decide, which Haskind's
     relation joins at every frequency. Else the tables hold periods, the default of WAMIT.
-
-    Parameters
-    ----------
-    name : str
-        Of the run.
-    radiation, force : Rows
-        Lines of A and B, and of the exciting forces, or None.
-    setting : Setting
-        Length scale and water.
-    findings : list of Finding
-        Reported there.
     """
     options = [replace(setting, first_column=option) for option in FIRST]
     fits = [_fit(radiation, option) for option in options]
