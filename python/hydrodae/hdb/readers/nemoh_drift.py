@@ -14,10 +14,9 @@ import numpy as np
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.readers.quadratic import Entries
-from hydrodae.hdb.readers.rows import check_parts, read_rows
+from hydrodae.hdb.readers.rows import LOAD, PAIRS, check_parts, read_rows
 from hydrodae.hdb.readers.setting import Setting
 from hydrodae.hdb.readers.text import read_lines
-from hydrodae.hdb.readers.wamit_tables import LOAD, PAIRS
 
 COLUMNS = replace(PAIRS, meaning=f"two frequencies, two headings, {LOAD}")
 NAMES = re.compile(r"OUT_QTF([MP])(_.*)?\.dat$", re.IGNORECASE)
@@ -69,7 +68,7 @@ def read(path: Path, setting: Setting, findings: list[Finding]) -> list[Entries]
             "pressure",
             UNITS[unit[1].lower()](rows.waves),
             np.radians(rows.headings),
-            setting.labels_of(rows),
+            rows.labels(setting),
             setting.rho * setting.gravity * rows.loads.conj(),
             rows.lines,
             setting.wave_point,

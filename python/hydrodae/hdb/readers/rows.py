@@ -1,4 +1,9 @@
-"""Files of columns of numbers: which column holds what, their lines, and tables of these."""
+"""Numeric files of WAMIT and others: the columns of each, their lines, and what these mean.
+
+Every line of WAMIT holds numbers only, but for one title line that the option NUMHDR writes first.
+The first column of all but `.hst` is the period, or a frequency or wavenumber (option IPEROUT);
+zero and negative values there stand for w = inf and w = 0, or the other way round.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +16,9 @@ from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.readers.setting import Setting
 from hydrodae.hdb.readers.text import numbers, read_lines
+from hydrodae.hdb.relations.dispersion import frequency
 from hydrodae.support.arrays import Array, Complex
 from hydrodae.support.naming import names_file
 
@@ -44,6 +51,22 @@ class Columns:
     weight: bool = True
 
 
+LOAD = "mode, modulus, phase, real and imaginary part"
+FORCE = Columns(f"period, heading, {LOAD}", 1, 1, 1, 4, length=2.0)
+DRIFT = Columns(f"period, two headings, {LOAD}", 1, 2, 1, 4, length=1.0)
+PAIRS = Columns(f"two periods, two headings, {LOAD}", 2, 2, 1, 4, length=1.0)
+#: What a line holds, by the suffix of the file.
+COLUMNS = {
+    ".1": Columns("period, I, J, A [, B]", 1, 0, 2, 2, 1, length=3.0, weight=False),
+    **dict.fromkeys((".2", ".3", ".3fk", ".3sc"), FORCE),
+    ".hst": Columns("I, J, C(I,J)", 0, 0, 2, 1, length=2.0),
+    **dict.fromkeys((".7", ".8", ".9"), DRIFT),
+    **dict.fromkeys((".10d", ".11d", ".12d", ".10s", ".11s", ".12s"), PAIRS),
+}
+#: What the first column may hold, by IPEROUT: w^2/g L in deep water and k L in the given depth.
+FIRST = {1: "period", 2: "frequency", 3: "wavenumber of deep water", 4: "wavenumber"}
+
+
 @dataclass(frozen=True)
 class Rows:
     """Lines of a file of numbers.
@@ -67,6 +90,10 @@ class Rows:
         """Return the lines (m,) that are kept."""
         return replace(self, table=self.table[kept], lines=self.lines[kept])
 
+    def of_modes(self, modes: Array) -> Rows:
+        """Return the lines of which all modes are among these."""
+        return self.where(np.asarray(np.isin(self.modes, modes).all(axis=1)))
+
     @property
     def waves(self) -> Array:
         """(m, waves) periods or frequencies."""
@@ -84,6 +111,11 @@ class Rows:
         c = self.columns
         return self.table[:, c.waves + c.headings :][:, : c.modes]
 
+    def labels(self, setting: Setting) -> NDArray[np.str_]:
+        """Return the coordinate (m,) of the first mode of each line."""
+        modes = zip(self.modes[:, 0], self.lines, strict=True)
+        return np.array([setting.label_of(mode, self.path, int(line)) for mode, line in modes])
+
     @property
     def values(self) -> Array:
         """(m, values) numbers that belong to the keys."""
@@ -96,8 +128,8 @@ class Rows:
 
 
 @names_file
-def read_rows(path: Path, columns: Columns) -> Rows:
-    """Read a file whose lines hold these columns; the first line may be a title.
+def read_rows(path: Path, columns: Columns, text: list[str] | None = None) -> Rows:
+    """Read a file, or its lines, which hold these columns; the first line may be a title.
 
     Raises
     ------
@@ -107,15 +139,18 @@ def read_rows(path: Path, columns: Columns) -> Rows:
     most = columns.waves + columns.headings + columns.modes + columns.values
     least, meaning = most - columns.optional, columns.meaning
     rows, lines = [], []
-    for count, line in enumerate(read_lines(path), start=1):
+    for count, line in enumerate(read_lines(path) if text is None else text, start=1):
         if not line.strip():
             continue
         try:
-            values = numbers(line, count, meaning)
-        except DatabaseError:
-            if count == 1:
-                continue  # the title line
-            raise
+            values = [float(word) for word in line.split()]  # the usual case
+        except ValueError:
+            try:
+                values = numbers(line, count, meaning)
+            except DatabaseError:
+                if count == 1:
+                    continue  # the title line
+                raise
         if not all(map(math.isfinite, values[:2])):  # period or mode; tables may hold NaN
             keys = " ".join(line.split()[:2])
             raise DatabaseError(f"{keys}: expected {meaning}").about("format", line=count)
@@ -212,3 +247,31 @@ def tabulate(
             "missing", "entry", file=rows.path
         )
     return table
+
+
+def to_omega(first: Array, setting: Setting) -> Array:
+    """Turn what stands in the first column of a file (m,) into frequencies [rad/s].
+
+    Parameters
+    ----------
+    first : (m,) array
+    setting : Setting
+        What the column holds, of `FIRST`, the length scale and the water.
+    """
+    option, omega, usual = setting.first_column, np.empty_like(first), first > 0.0
+    if option == 1:
+        omega[usual] = 2.0 * np.pi / first[usual]
+        omega[~usual] = np.where(first[~usual] == 0.0, np.inf, 0.0)
+        return omega
+    omega[usual] = first[usual]
+    if option > 2:
+        depth = setting.depth if option == 4 else np.inf
+        omega[usual] = frequency(first[usual] / setting.length, depth, setting.gravity)
+    omega[~usual] = np.where(first[~usual] == 0.0, 0.0, np.inf)
+    return omega
+
+
+def unit(columns: Columns, setting: Setting, turns: Array) -> Array:
+    """Unit of values of modes of which so many are rotations."""
+    weight = setting.rho * setting.gravity if columns.weight else setting.rho
+    return np.asarray(weight * setting.length ** (columns.length + turns))

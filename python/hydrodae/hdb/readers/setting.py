@@ -6,11 +6,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.labels import bodies_of
-from hydrodae.hdb.readers.rows import Rows
 from hydrodae.support.arrays import Array
 
 
@@ -57,11 +55,6 @@ class Setting:
                 f"{', '.join(self.bodies)}: a table of other bodies?"
             ).about("label", "modes", file=file, line=line)
         return self.labels[int(mode) - 1]
-
-    def labels_of(self, rows: Rows) -> NDArray[np.str_]:
-        """Return the coordinate of the mode of each line."""
-        modes = zip(rows.modes[:, 0], rows.lines, strict=True)
-        return np.array([self.label_of(mode, rows.path, int(line)) for mode, line in modes])
 
     def check(self, what: str, stated: float, known: float, file: Path, unit: str) -> None:
         """Refuse what a file states of the water, if the database is of another.

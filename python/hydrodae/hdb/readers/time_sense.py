@@ -73,7 +73,9 @@ def correct_time_sense(data: SourceData, stated: str | None = None) -> None:
         return
     bodies = bodies_of(data.coordinates)
     horizontal = [s for body in bodies if (s := _horizontal(data, force, body)) is not None]
-    vertical = [s for body in bodies if (s := _vertical(data, force, body)) is not None]
+    # waves that other bodies scatter hide it
+    alone = bodies if len(bodies) == 1 else ()
+    vertical = [s for body in alone if (s := _vertical(data, force, body)) is not None]
     if not horizontal or not vertical or max(horizontal) > -0.5 or max(vertical) > -0.5:
         return
     _conjugate(data, list(PARTS.values()))
@@ -212,12 +214,9 @@ def _horizontal(data: SourceData, force: Complex, body: str) -> float | None:
 
 
 def _vertical(data: SourceData, force: Complex, body: str) -> float | None:
-    """Sign of Im F3 / (w B33) in the longest waves, where its size is 1; None if it is not.
-
-    Only of one body: waves that others scatter hide it.
-    """
+    """Sign of Im F3 / (w B33) of one body in the longest waves; None where its size is not 1."""
     label = f"{body}.heave"
-    if label not in data.coordinates or len(bodies_of(data.coordinates)) > 1:
+    if label not in data.coordinates:
         return None
     i = data.coordinates.index(label)
     value = _local(data, force, body, 0)[:LONGEST, i].imag

@@ -17,7 +17,16 @@ from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.labels import DOFS, bodies_of, read_labels, six_of_each
 from hydrodae.hdb.readers.formats import Format
 from hydrodae.hdb.readers.mesh_beside import statics_of_file
-from hydrodae.hdb.readers.rows import Rows, check_modes, check_parts, read_rows, tabulate
+from hydrodae.hdb.readers.rows import (
+    COLUMNS,
+    Rows,
+    check_modes,
+    check_parts,
+    read_rows,
+    tabulate,
+    to_omega,
+    unit,
+)
 from hydrodae.hdb.readers.setting import Setting
 from hydrodae.hdb.readers.source import SourceData, Water, without_hydrostatics
 from hydrodae.hdb.readers.text import LARGEST_COUNT, beside, lines_beside
@@ -29,12 +38,12 @@ from hydrodae.hdb.readers.wamit_guesses import (
     told_depth,
 )
 from hydrodae.hdb.readers.wamit_listing import is_listing, read_listing
-from hydrodae.hdb.readers.wamit_tables import COLUMNS, to_omega, unit
 from hydrodae.support.arrays import Array, Complex
 
 SUFFIXES = (".1", ".2", ".3", ".3fk", ".3sc", ".hst", ".pot", ".cfg", ".mmx", ".out", ".frc")
 #: Files of each force, the better one first.
 FORCES = {"excitation": (".3", ".2"), "froude_krylov": (".3fk",), "diffraction": (".3sc",)}
+TABLES = (".1", ".3", ".2", ".3fk", ".3sc", ".hst")
 
 
 @dataclass(frozen=True)
@@ -142,22 +151,23 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
 
 def _read_run(stem: Path) -> Run:
     """Read all files of a run, each once."""
-    texts = lines_beside(stem, BESIDE)
+    texts = lines_beside(stem, (*BESIDE, *TABLES))
     control = read_control(stem, texts)
-    paths = {s: beside(stem, s) for s in (".1", ".2", ".3", ".3fk", ".3sc", ".hst")}
-    found = {s: path for s, path in paths.items() if path is not None}
-    files = {key: next((s for s in wanted if s in found), "") for key, wanted in FORCES.items()}
-    if ".1" in found:
-        radiation, force = read_rows(found[".1"], COLUMNS[".1"]), None
-    else:
+    files = {key: next((s for s in wanted if s in texts), "") for key, wanted in FORCES.items()}
+    force = None
+    if listed := ".1" not in texts:
         radiation, force = read_listing(*texts[".out"])  # one of both makes a stem
+    else:
+        path, lines = texts[".1"]
+        radiation = read_rows(path, COLUMNS[".1"], lines)
     forces = {} if force is None else {"excitation": force}
     for key, suffix in files.items():
         if suffix and key not in forces:
-            forces[key] = read_rows(found[suffix], COLUMNS[suffix])
-    hst = found.get(".hst")
-    stiffness = None if hst is None else read_rows(hst, COLUMNS[".hst"])
-    return Run(stem, control, radiation, forces, stiffness, ".1" not in found)
+            path, lines = texts[suffix]
+            forces[key] = read_rows(path, COLUMNS[suffix], lines)
+    hst = texts.get(".hst")
+    stiffness = None if hst is None else read_rows(hst[0], COLUMNS[".hst"], hst[1])
+    return Run(stem, control, radiation, forces, stiffness, listed)
 
 
 def _tables(run: Run, water: Water, findings: list[Finding]) -> tuple[SourceData, Motions]:
@@ -261,15 +271,11 @@ def _listed(modes: Array) -> str:
     return ", ".join(f"{m:g}" for m in modes)
 
 
-def _of_modes(rows: Rows, modes: Array) -> Rows:
-    return rows.where(np.asarray(np.isin(rows.modes, modes).all(axis=1)))
-
-
 def _radiation(
     run: Run, motions: Motions, setting: Setting, findings: list[Finding]
 ) -> tuple[Array, Array, Array]:
     """Frequencies, 0 and inf among them, and dimensionless A, B (nw, n, n) of the modes kept."""
-    modes, rows = motions.kept, _of_modes(run.radiation, motions.kept)
+    modes, rows = motions.kept, run.radiation.of_modes(motions.kept)
     omega = to_omega(rows.waves[:, 0], setting)
     added, damping = rows.values.T
     at, usual = np.unique(omega), np.isfinite(omega) & (omega > 0.0)
@@ -308,7 +314,7 @@ def _forces(
         findings.append(Finding("info", "excitation", text))
     if rows.path.suffix.lower() != ".out":
         check_parts(rows, findings)
-    rows = _of_modes(rows, motions.kept)
+    rows = rows.of_modes(motions.kept)
     at = to_omega(rows.waves[:, 0], setting)
     usual = np.isfinite(at) & (at > 0.0)
     rows, at = rows.where(usual), at[usual]
@@ -385,7 +391,7 @@ def _attach_waterplane(data: SourceData, name: str, statics: Statics, block: Arr
 
 def _stiffness(rows: Rows, modes: Array, every: Array) -> Array:
     """C/(rho g) of some modes, (n, n), from `.hst`."""
-    used = _of_modes(rows, modes)
+    used = rows.of_modes(modes)
     if used.lines.size < modes.size**2:  # a garbled index leaves a gap; tables may hold more modes
         check_modes(rows, np.union1d(modes, every))
     keys, axes = (np.zeros(used.lines.size), *used.modes.T), (np.zeros(1), modes, modes)

@@ -17,6 +17,7 @@ import numpy as np
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.readers.hydrodyn import input_of
+from hydrodae.hdb.readers.rows import FIRST
 from hydrodae.hdb.readers.text import (
     NUMBER,
     beside,
@@ -27,7 +28,6 @@ from hydrodae.hdb.readers.text import (
     read_lines,
     read_text,
 )
-from hydrodae.hdb.readers.wamit_tables import FIRST
 from hydrodae.support.arrays import Array
 from hydrodae.support.naming import names_file
 

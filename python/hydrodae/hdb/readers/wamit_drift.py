@@ -17,13 +17,12 @@ from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.second_order import OF_ALL_BODIES
 from hydrodae.hdb.labels import read_labels
 from hydrodae.hdb.readers.quadratic import Entries
-from hydrodae.hdb.readers.rows import Rows, check_parts, read_rows
+from hydrodae.hdb.readers.rows import COLUMNS, Rows, check_parts, read_rows, to_omega, unit
 from hydrodae.hdb.readers.setting import Setting
 from hydrodae.hdb.readers.text import beside
 from hydrodae.hdb.readers.wamit import wamit_stem
 from hydrodae.hdb.readers.wamit_control import read_control
 from hydrodae.hdb.readers.wamit_listing import is_listing, read_drift
-from hydrodae.hdb.readers.wamit_tables import COLUMNS, to_omega, unit
 
 #: Kind and method of each file, the better ones first: pressures need finer meshes than the far
 #: field or a control surface, and `.10` lacks the potential of second order.
@@ -94,7 +93,7 @@ def _entries(
             f"no line with a mode and frequencies > 0; expected {rows.columns.meaning}"
         ).about("missing", "numbers", file=path)
     check_parts(rows, findings)
-    labels = setting.labels_of(rows)
+    labels = rows.labels(setting)
     turns = np.array([label.is_rotation for label in read_labels(labels)])
     return Entries(
         path,

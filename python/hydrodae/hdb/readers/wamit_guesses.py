@@ -10,11 +10,10 @@ import numpy as np
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.labels import DOFS
-from hydrodae.hdb.readers.rows import Rows
+from hydrodae.hdb.readers.rows import FIRST, Rows, to_omega
 from hydrodae.hdb.readers.setting import Setting
 from hydrodae.hdb.readers.source import LARGEST, SEA_WATER, USUAL_GRAVITY, SourceData, Water
 from hydrodae.hdb.readers.wamit_control import WAVELENGTH, Asked, Control
-from hydrodae.hdb.readers.wamit_tables import FIRST, to_omega
 from hydrodae.hdb.relations.causality import causal_line
 from hydrodae.hdb.relations.depth import depth_of_bodies
 from hydrodae.hdb.relations.dispersion import frequency, group_velocity, wavenumber

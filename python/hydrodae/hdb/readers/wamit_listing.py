@@ -12,9 +12,8 @@ from pathlib import Path
 import numpy as np
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.readers.rows import Columns, Rows
+from hydrodae.hdb.readers.rows import COLUMNS, Columns, Rows
 from hydrodae.hdb.readers.text import NUMBER, number, numbers, read_lines
-from hydrodae.hdb.readers.wamit_tables import COLUMNS
 from hydrodae.support.naming import names_file
 
 #: Of the list of periods that POTEN has solved, with the time of day.
