@@ -26,7 +26,7 @@ EXCHANGED = 2.0
 FOREIGN, ENDS_EARLY = 0.3, 0.5
 #: Couplings below this share of the largest added mass are noise.
 LEAST_COUPLING = 0.02
-#: Fewest frequencies that tell A(0) from A(inf).
+#: Fewest frequencies with which A(0) and A(inf) can be compared.
 LEAST_ROWS = 8
 
 
