@@ -14,19 +14,11 @@ import numpy as np
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
-from hydrodae.hdb.hull.hydrostatics import Hydrostatics
-from hydrodae.hdb.readers.aqwa_common import (
-    aqwa_data,
-    structure_names,
-    to_world,
-    unique_headings,
-    unit_of_mass,
-)
+from hydrodae.hdb.readers.aqwa_common import aqwa_data
 from hydrodae.hdb.readers.aqwa_listing import read_listing
 from hydrodae.hdb.readers.formats import Format
-from hydrodae.hdb.readers.source import Scales, SourceData
+from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.readers.text import only, read_lines, row_of
-from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.support.arrays import Array
 from hydrodae.support.naming import names_file
 
@@ -161,40 +153,35 @@ class _Ah1:
         """Put the sections together."""
         n, nw, nh = self.count, self.omega.size, self.heading_deg.size
         depth, rho, gravity = self.block("GENERAL", (n,), 5)[0, :3]
-        unit = unit_of_mass(rho, gravity)
         centers = list(self.block("COG", (n,), 3))
         force = self.block("FORCERAO", (n, nh, nw), 12).reshape(n, nh, nw, 2, 6)
         turned = force[:, :, :, 0] * np.exp(-1j * np.radians(force[:, :, :, 1]))
-        flat = unit * turned.transpose(2, 1, 0, 3).reshape(nw, nh, 6 * n)
-        heading, kept = unique_headings(self.heading_deg)
-        k = wavenumber(self.omega, depth, gravity)
         a_inf = None
         alone = self._each_alone("ADDEDMASS_HF")
         if "ADDEDMASS_HF" in self.sections and not alone:
             table = self.block("ADDEDMASS_HF", (n, n), 36).reshape(n, n, 6, 6)
-            a_inf = unit * table.transpose(0, 2, 1, 3).reshape(6 * n, 6 * n)
+            a_inf = table.transpose(0, 2, 1, 3).reshape(6 * n, 6 * n)
         data = aqwa_data(
             self.path,
-            structure_names(self.path, n),
             self.omega,
-            (unit * self.matrices("ADDEDMASS"), unit * self.matrices("DAMPING"), a_inf),
-            heading,
+            (self.matrices("ADDEDMASS"), self.matrices("DAMPING"), a_inf),
+            self.heading_deg,
+            {
+                "excitation": np.asarray(
+                    turned.transpose(2, 1, 0, 3).reshape(nw, nh, 6 * n), complex
+                )
+            },
             centers,
-            (float(unit * rho), float(gravity), float(depth)),
+            (rho, gravity, depth),
         )
         if alone:
             text = "ADDEDMASS_HF holds that of each structure alone: estimated from A and B instead"
             data.findings.append(Finding("info", "added_mass_inf of the source", text))
-        data.scales = Scales(unit=unit)
-        data.excitation = to_world(np.asarray(flat[:, kept], dtype=complex), k, heading, centers)
         buoyancy = self.block("COB", (n,), 3)
         volume = self.block("DISPLACEMENT", (n,), 1)[:, 0]
-        stiffness = unit * self.block("HYDSTIFFNESS", (n,), 36).reshape(n, 6, 6)
+        stiffness = data.setting.unit * self.block("HYDSTIFFNESS", (n,), 36).reshape(n, 6, 6)
         for i, name in enumerate(data.reference_points):
-            statics = Hydrostatics.from_stiffness(
-                stiffness[i], centers[i], float(volume[i]), buoyancy[i], data.rho, data.gravity
-            )
-            data.hydrostatics[name] = (statics, centers[i])
+            data.add_statics(name, stiffness[i], centers[i], float(volume[i]), buoyancy[i])
         return data
 
 

@@ -11,6 +11,7 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.coordinates import unique_names
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.labels import six_of_each
+from hydrodae.hdb.readers.setting import Setting
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.support.arrays import Array, Complex
 
@@ -34,32 +35,6 @@ def unit_of_mass(rho: float, gravity: float) -> float:
     ).about("units", "density")
 
 
-def structure_names(path: Path, count: int) -> list[str]:
-    """Names of the structures: that of the file if there is one only."""
-    return [f"structure{i + 1}" if count > 1 else path.stem for i in range(count)]
-
-
-def to_world(force: Complex, k: Array, heading: Array, centers: list[Array]) -> Complex:
-    """Move the phase zero from the centre of gravity of each structure to the origin.
-
-    Parameters
-    ----------
-    force : (nw, nh, 6 n) complex array
-        Six forces of each structure.
-    k : (nw,) array
-        Wavenumbers [rad/m].
-    heading : (nh,) array
-        [rad].
-    centers : list of n (3,) arrays
-        [m].
-    """
-    result = force.copy()
-    for i, center in enumerate(centers):
-        along = center[0] * np.cos(heading) + center[1] * np.sin(heading)
-        result[:, :, 6 * i : 6 * i + 6] *= np.exp(-1j * np.outer(k, along))[:, :, None]
-    return result
-
-
 def unique_headings(degrees: Array) -> tuple[Array, NDArray[np.intp]]:
     """Headings [rad] without the second of -180 and 180 degrees, and their places in the file."""
     _, kept = np.unique(np.round(np.mod(degrees, 360.0), 6), return_index=True)
@@ -69,45 +44,42 @@ def unique_headings(degrees: Array) -> tuple[Array, NDArray[np.intp]]:
 
 def aqwa_data(
     path: Path,
-    names: list[str],
     omega: Array,
     tables: tuple[Array, Array, Array | None],
-    heading: Array,
+    heading_deg: Array,
+    forces: dict[str, Complex],
     centers: list[Array],
     water: tuple[float, float, float],
 ) -> SourceData:
-    """Return the tables (A, B, added_mass_inf) of AQWA without forces and hydrostatics.
+    """Return the tables of n structures in SI units, without hydrostatics.
 
-    Parameters
-    ----------
-    path : Path
-    names : list of str
-        One for each structure.
-    omega, tables, heading
-        As in `SourceData`.
-    centers : list of (3,) arrays
-        Centres of gravity [m].
-    water : tuple of float
-        Density, gravity, depth [kg/m3, m/s2, m].
+    A, B, added_mass_inf and `forces` (nw, nh, 6 n), with their phase zero at the centres of gravity
+    [m], are in the unit of mass of the file; `water` are its density, gravity and depth.
     """
-    findings = []
+    unit, findings = unit_of_mass(water[0], water[1]), list[Finding]()
     if tables[2] is not None:
         text = "AQWA's at 100 rad/s stands for infinite frequency"
         findings.append(Finding("info", "added_mass_inf of the source", text))
-    clean = unique_names(names)
-    return SourceData(
-        coordinates=six_of_each(clean),
+    count = len(centers)
+    names = unique_names([f"structure{i + 1}" if count > 1 else path.stem for i in range(count)])
+    heading, kept = unique_headings(heading_deg)
+    data = SourceData(
+        coordinates=six_of_each(names),
         omega=omega,
-        added_mass=tables[0],
-        radiation_damping=tables[1],
+        added_mass=unit * tables[0],
+        radiation_damping=unit * tables[1],
         heading=heading,
-        reference_points=dict(zip(clean, centers, strict=True)),
-        rho=water[0],
-        gravity=water[1],
-        water_depth=water[2],
+        reference_points=dict(zip(names, centers, strict=True)),
+        rho=float(unit * water[0]),
+        gravity=float(water[1]),
+        water_depth=float(water[2]),
         name=path.name,
         title=f"AQWA {path.stem}",
-        added_mass_inf=tables[2],
+        added_mass_inf=None if tables[2] is None else unit * tables[2],
         files=[path],
         findings=findings,
+        setting=Setting(unit=unit),
+        **{name: unit * force[:, kept] for name, force in forces.items()},  # type: ignore[arg-type]
     )
+    data.to_origin(dict(zip(names, centers, strict=True)))
+    return data

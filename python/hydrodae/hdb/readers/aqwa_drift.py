@@ -5,6 +5,7 @@ P + iQ is conjugated here: AQWA's phases are lags, from the crest at the centre 
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -12,11 +13,11 @@ import numpy as np
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.labels import DOFS
-from hydrodae.hdb.readers.quadratic import Entries
+from hydrodae.hdb.readers.quadratic import Entries, of_coordinates
 from hydrodae.hdb.readers.setting import Setting
 from hydrodae.hdb.readers.text import number, read_lines
-from hydrodae.support.arrays import Array
 
+NAMES = re.compile(r"\.qtf$", re.IGNORECASE)
 Numbers = list[tuple[int, float]]
 
 
@@ -49,26 +50,17 @@ def read(path: Path, setting: Setting, findings: list[Finding]) -> list[Entries]
             raise DatabaseError(f"not numbers: {line.strip()[:60]!r}").about(
                 "format", file=path, line=count
             ) from None
-    parts: list[list[Array]] = []
-    labels: list[str] = []
+    entries: list[Entries] = []
     structure = 0
     while found:
         structure += 1
         if structure > len(setting.bodies):
             raise _other_run(path, setting, f"structure {structure}")
-        block, found = _structure(path, structure, found, setting)
-        parts.append(block)
-        names = [setting.label_of(6 * structure - 5 + i, path) for i in range(6)]
-        labels += names * (block[0].shape[0] // 6)
+        more, found = _structure(path, structure, found, setting)
+        entries += more
     if structure < len(setting.bodies):
         raise _other_run(path, setting, f"{structure} structures only")
-    omega, heading, point, loads, at = (np.concatenate(x) for x in zip(*parts, strict=True))
-    return [
-        Entries(
-            path, kind, "pressure", omega, heading, labels, loads[:, i], at.astype(int)
-        ).phased(point, setting)
-        for i, kind in enumerate(("difference", "sum"))
-    ]  # fmt: skip
+    return entries
 
 
 def _other_run(path: Path, setting: Setting, found: str) -> DatabaseError:
@@ -79,8 +71,8 @@ def _other_run(path: Path, setting: Setting, found: str) -> DatabaseError:
 
 def _structure(
     path: Path, structure: int, found: Numbers, setting: Setting
-) -> tuple[list[Array], Numbers]:
-    """Return waves, point and both loads of each line of a structure, and the numbers after it."""
+) -> tuple[list[Entries], Numbers]:
+    """Return the loads of difference and of sum of a structure, and the numbers after it."""
     line, first = found[0]
     if len(found) < 3 or first != structure:
         raise DatabaseError(
@@ -105,20 +97,25 @@ def _structure(
         raise DatabaseError("structure, direction or frequencies out of order").about(
             "order", file=path, line=int(at[wrong[0]])
         )
-    h, i, j = indices.T - 1
-    loads = rows[:, 4:].reshape(pairs, 4, 6)
-    both = np.stack([loads[:, 0] - 1j * loads[:, 1], loads[:, 2] - 1j * loads[:, 3]], axis=-1)
     center = setting.points.get(setting.bodies[structure - 1])
     if center is None:
         raise DatabaseError(
             f"phases are about the centre of gravity of structure {structure}, which the database "
             f"does not know: state it (--origin)"
         ).about("point", file=path)
+    labels = [setting.label_of(6 * structure - 5 + i, path) for i in range(len(DOFS))]
+    h, i, j = indices.T - 1
     omega, heading = axis[nh:], np.radians(axis[:nh])
+    loads = rows[:, 4:].reshape(pairs, 4, 6)
     return [
-        np.repeat(np.column_stack([omega[i], omega[j]]), len(DOFS), axis=0),
-        np.repeat(np.column_stack([heading[h], heading[h]]), len(DOFS), axis=0),
-        np.tile(center[:2], (6 * pairs, 1)),
-        setting.unit * both.reshape(6 * pairs, 2),
-        np.repeat(at, len(DOFS)),
+        of_coordinates(
+            path,
+            (kind, "pressure"),
+            (np.column_stack([omega[i], omega[j]]), heading[h]),
+            labels,
+            setting.unit * (loads[:, part] - 1j * loads[:, part + 1]),
+            at,
+            wave_point=center[:2],
+        )
+        for part, kind in ((0, "difference"), (2, "sum"))
     ], found[start + pairs * width :]

@@ -15,18 +15,10 @@ import numpy as np
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
-from hydrodae.hdb.hull.hydrostatics import Hydrostatics
-from hydrodae.hdb.readers.aqwa_common import (
-    aqwa_data,
-    structure_names,
-    to_world,
-    unique_headings,
-    unit_of_mass,
-)
+from hydrodae.hdb.readers.aqwa_common import aqwa_data, unit_of_mass
 from hydrodae.hdb.readers.aqwa_pages import pages_of_structures, read_matrix, read_radiation
-from hydrodae.hdb.readers.source import Scales, SourceData
+from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.readers.text import NUMBER, number, read_text
-from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.support.arrays import Array, Complex
 from hydrodae.support.naming import names_file
 
@@ -61,8 +53,8 @@ def read_listing(path: Path) -> SourceData:
     if not pages:
         raise DatabaseError("no page FOR STRUCTURE n in it").about("missing")
     structures = sorted(pages)
-    water = [_stated(lines, _STATED[key]) for key in ("rho", "gravity", "depth")]
-    unit = unit_of_mass(water[0], water[1])
+    rho, gravity, depth = (_stated(lines, _STATED[key]) for key in ("rho", "gravity", "depth"))
+    unit_of_mass(rho, gravity)
     centers = [_center(pages[s]) for s in structures]
     forces = {key: [_forces(pages[s], title) for s in structures] for key, title in _FORCES.items()}
     asked = sorted({w for rows in forces["diffraction"] for w, _ in rows})
@@ -75,14 +67,11 @@ def read_listing(path: Path) -> SourceData:
             raise DatabaseError(f"{title}: structures with different directions").about(
                 "conflict", "headings"
             )
-        tables[key] = np.concatenate([unit * table for table, _ in parts], axis=2)
+        tables[key] = np.concatenate([table for table, _ in parts], axis=2)
         headings_deg = parts[0][1]
-    heading, kept = unique_headings(headings_deg)
-    rho, gravity, depth = unit * water[0], water[1], water[2]
-    limits = (unit * a, unit * b, None if a_inf is None else unit * a_inf)
-    names = structure_names(path, len(structures))
-    data = aqwa_data(path, names, omega, limits, heading, centers, (rho, gravity, depth))
-    data.scales = Scales(unit=unit)
+    data = aqwa_data(
+        path, omega, (a, b, a_inf), headings_deg, tables, centers, (rho, gravity, depth)
+    )
     if not any(_END.search(line) for line in lines[-END_LINES:]):
         lost = a_inf is None  # the last page but that line
         text = f"{path.name} has no line FINISH DATE at its end: it is cut short"
@@ -91,17 +80,11 @@ def read_listing(path: Path) -> SourceData:
     if not coupled:
         text = "no tables of interaction (H/I): each structure is taken to radiate alone"
         data.findings.append(Finding("warning", "coordinates", text))
-    k = wavenumber(omega, depth, gravity)
-    data.froude_krylov = to_world(tables["froude_krylov"][:, kept], k, heading, centers)
-    data.diffraction = to_world(tables["diffraction"][:, kept], k, heading, centers)
     for name, s, center in zip(data.reference_points, structures, centers, strict=True):
         own = {key: _stated(pages[s], _STATED[key]) for key in ("volume", "bx", "by", "bz")}
         buoyancy = np.array([own["bx"], own["by"], own["bz"]])
-        stiffness = unit * _stiffness(pages[s])
-        statics = Hydrostatics.from_stiffness(
-            stiffness, center, own["volume"], buoyancy, data.rho, data.gravity
-        )
-        data.hydrostatics[name] = (statics, center)
+        stiffness = data.setting.unit * _stiffness(pages[s])
+        data.add_statics(name, stiffness, center, own["volume"], buoyancy)
     return data
 
 

@@ -59,25 +59,10 @@ def read_matrix(lines: list[str], start: int) -> Array:
 def read_radiation(
     pages: dict[int, list[str]], asked: list[float]
 ) -> tuple[Array, Array, Array, Array | None, bool]:
-    """Read the tables of all structures.
+    """Return w (nw,), A and B (nw, 6 n, 6 n), A at 100 rad/s or None, and whether all are coupled.
 
-    Parameters
-    ----------
-    path : Path
-    pages : dict
-        As from `pages_of_structures`.
-    asked : list of float
-        Frequencies of the forces [rad/s]; only these are taken: the listing adds one near zero.
-
-    Returns
-    -------
-    omega : (nw,) array
-    a, b : (nw, 6 n, 6 n) arrays
-        About the centres of gravity.
-    limit : (6 n, 6 n) array or None
-        A at 100 rad/s.
-    coupled : bool
-        Whether there are tables of interaction.
+    Matrices are about the centres of gravity. Only frequencies `asked` for of the forces [rad/s]
+    are taken: the listing adds one near zero. Coupled are structures with tables of interaction.
 
     Raises
     ------

@@ -17,7 +17,6 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.coordinates import unique_names
 from hydrodae.hdb.database.files import DAMAGED, damaged
 from hydrodae.hdb.database.findings import Finding
-from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import six_of_each
 from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
 from hydrodae.support.arrays import Array
@@ -172,10 +171,7 @@ def _attach_body(
     if not np.all(np.isfinite(k[:6, :6])) or not np.isfinite(volume[0]):
         data.findings.append(without_hydrostatics(f"{name}: holds NaN; left out", [name]))
         return
-    hydrostatics = Hydrostatics.from_stiffness(
-        k[:6, :6], point, float(volume[0]), buoyancy, data.rho, data.gravity
-    )
-    data.hydrostatics[name] = (hydrostatics, point)
+    data.add_statics(name, k[:6, :6], point, float(volume[0]), buoyancy)
 
 
 def _stiffness(g: h5py.Group, own: slice, total: int) -> Array:

@@ -16,7 +16,7 @@ from hydrodae.hdb.database.files import DAMAGED, damaged
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.second_order import OF_ALL_BODIES
 from hydrodae.hdb.readers.bemio import is_bemio_file
-from hydrodae.hdb.readers.quadratic import Entries
+from hydrodae.hdb.readers.quadratic import Entries, of_coordinates
 from hydrodae.hdb.readers.setting import Setting
 from hydrodae.support.damaged import reading
 
@@ -62,7 +62,7 @@ def _tables(path: Path, f: h5py.File, setting: Setting) -> dict[tuple[str, str],
     scaled = bool(f["simulation_parameters/scaled"][()].ravel()[0])
     found = {}
     for number, body in enumerate(setting.bodies, 1):
-        labels = [label for label in setting.labels if label.startswith(f"{body}.")]
+        labels = [label for label in setting.labels if label.startswith(f"{body}.")][:6]
         for group, method in METHODS.items():
             name = f"body{number}/hydro_coeffs/mean_drift/{group}/val"
             if name not in f:
@@ -72,15 +72,8 @@ def _tables(path: Path, f: h5py.File, setting: Setting) -> dict[tuple[str, str],
                 raise DatabaseError(
                     f"{name}: expected shape (6, {heading.size}, {omega.size}), not {value.shape}"
                 ).about("shape", name, file=path)
-            motion, h, w = np.indices(value.shape).reshape(3, -1)
-            found[body, method] = Entries(
-                path,
-                "mean",
-                method,
-                np.column_stack([omega[w], omega[w]]),
-                np.column_stack([heading[h], heading[h]]),
-                [labels[i] for i in motion],
-                (1.0 if scaled else setting.rho * setting.gravity) * value.ravel().astype(complex),
-                np.zeros(motion.size, dtype=int),
-            )
+            h, w = np.indices(value.shape[1:]).reshape(2, -1)
+            loads = (1.0 if scaled else setting.rho * setting.gravity) * value.reshape(6, -1).T
+            of, waves = ("mean", method), (omega[w], heading[h])
+            found[body, method] = of_coordinates(path, of, waves, labels, loads.astype(complex))
     return found

@@ -17,7 +17,7 @@ from hydrodae.hdb.database.extra import SourceTable
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.second_order import OF_ALL_BODIES
 from hydrodae.hdb.labels import DOFS
-from hydrodae.hdb.readers.quadratic import Entries
+from hydrodae.hdb.readers.quadratic import Entries, of_coordinates
 from hydrodae.hdb.readers.setting import Setting
 from hydrodae.support.arrays import Array, Complex
 
@@ -52,20 +52,16 @@ def read(
 def _entries(path: Path, name: str, method: str, table: SourceTable, setting: Setting) -> Entries:
     omega, first, second, dofs, values = _ordered(path, name, table)
     labels = [_label(path, name, dof, setting) for dof in dofs]
-    w, k, m, _ = np.indices(values.shape).reshape(4, -1)
+    w, k, m = np.indices(values.shape[:3]).reshape(3, -1)
     kept = np.isfinite(omega[w]) & (omega[w] > 0.0)
-    heading = np.column_stack([first[k], (first if second is None else second)[m]])
-    if second is None:
-        heading[:, 1] = heading[:, 0]
-    return Entries(
+    heading = np.column_stack([first[k], first[k] if second is None else second[m]])
+    loads = values.conj().reshape(-1, len(labels))[kept]
+    return of_coordinates(
         path,
-        "mean",
-        method,
-        np.column_stack([omega[w], omega[w]])[kept],
-        heading[kept],
-        [label for label, keep in zip(labels * (w.size // len(labels)), kept, strict=True) if keep],
-        values.conj().ravel()[kept],
-        np.zeros(int(kept.sum()), dtype=int),
+        ("mean", method),
+        (omega[w[kept]], heading[kept]),
+        labels,
+        loads,
         about_origin=method in OF_ALL_BODIES,
     )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
@@ -25,6 +26,8 @@ EXCHANGED = 2.0
 FOREIGN, ENDS_EARLY = 0.3, 0.5
 #: Couplings below this share of the largest added mass are noise.
 LEAST_COUPLING = 0.02
+#: Fewest frequencies with which A(0) and A(inf) can be compared.
+LEAST_ROWS = 8
 
 
 def finish(data: SourceData) -> HydroDatabase:
@@ -222,6 +225,7 @@ def _mesh_doubt(a: Array) -> Array:
 def _added_mass_inf(data: SourceData, a: Array, b: Array) -> tuple[Array, Array, str]:
     value, std = infinity.added_mass_inf(data.omega, a, b)
     value, std = 0.5 * (value + value.T), 0.5 * (std + std.T)
+    _settle_limits(data, a, value, std)
     std = _coupling_doubt(value, std) + _mesh_doubt(data.added_mass)
     if data.added_mass_inf is None:
         return value, std, "Ogilvie's relation at low frequencies"
@@ -241,3 +245,33 @@ def _added_mass_inf(data: SourceData, a: Array, b: Array) -> tuple[Array, Array,
         text += "; so far off are A and B of different columns, units or runs"
     data.findings.append(Finding(level, "added_mass_inf of the source", text, error))
     return given, np.abs(given - value), "source"
+
+
+def _settle_limits(data: SourceData, a: Array, estimate: Array, doubt: Array) -> None:
+    """Put A(0) and A(inf) of the source right where they were exchanged.
+
+    Capytaine before 3.0 wrote these rows of `.1` the other way round. A (nw, n, n) at the lowest
+    frequency is close to A(0), and Ogilvie's relation gives the estimate of A(inf), both (n, n).
+    """
+    zero, high = data.added_mass_zero, data.added_mass_inf
+    if data.omega.size < LEAST_ROWS or (zero is None and high is None):
+        return
+    first, limit, room = np.diag(a[0]), np.diag(estimate), 3.0 * np.diag(doubt)
+    # only coordinates whose two limits are apart can decide
+    tells = np.abs(first - limit) > room + 0.1 * np.abs(first)
+
+    def near(table: Array | None) -> NDArray[np.bool_]:
+        """Report which diagonal entries are those of w = inf; none of a table that is not there."""
+        off = np.inf if table is None else np.abs(np.diag(table) - limit)
+        return np.asarray(off < room + 0.05 * np.abs(limit))[tells]
+
+    exchanged = bool(tells.any()) and not near(high).any()
+    if zero is not None:
+        exchanged &= bool(near(zero).all())
+    elif high is not None:
+        exchanged &= np.allclose(np.diag(high)[tells], first[tells], rtol=0.02)
+    if not exchanged:
+        return
+    data.added_mass_inf = zero
+    text = "the rows of w = 0 and w = inf are exchanged (Capytaine before 3.0 wrote them so)"
+    data.findings.append(Finding("warning", "added_mass_inf of the source", f"{text}; put right"))

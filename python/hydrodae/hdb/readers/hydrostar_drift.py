@@ -14,11 +14,12 @@ import numpy as np
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
-from hydrodae.hdb.readers.quadratic import Entries
+from hydrodae.hdb.readers.quadratic import Entries, of_coordinates
 from hydrodae.hdb.readers.setting import Setting
 from hydrodae.hdb.readers.text import NUMBER, number, read_lines
 from hydrodae.support.arrays import Array
 
+NAMES = re.compile(r"\.rao$", re.IGNORECASE)
 #: Values print five digits, so that w + d is a frequency of the table to 2e-4 of it.
 SAME_FREQUENCY = 2e-4
 #: What a name says of mean drift: far field, middle field; else pressures.
@@ -34,7 +35,7 @@ def find(source: Path) -> list[Path]:
     return [p for p in paths if p.suffix.lower() == ".rao" and "#QTFTYPE" in "".join(_head(p))]
 
 
-def read(path: Path, setting: Setting, findings: list[Finding]) -> Entries:
+def read(path: Path, setting: Setting, findings: list[Finding]) -> list[Entries]:
     """Read one file.
 
     Raises
@@ -70,24 +71,22 @@ def read(path: Path, setting: Setting, findings: list[Finding]) -> Entries:
         raise DatabaseError("#QTFMODE: expected Diff, or Sum of several frequencies").about(
             "format", "#QTFMODE", file=path
         )
-    method = METHODS.get(path.stem[-2:].upper(), "pressure")
     rows, heading, lines = _rows(path, len(head), 1 + 2 * steps.size)
     loads = rows[:, 1::2] + 1j * rows[:, 2::2]
     kept = (steps == 0.0) | (loads != 0.0)
     omega = _second(path, rows[:, 0], steps, kept)
-    point = number_of.many("Ref.pt incident wave", 2)
     at, step = np.nonzero(kept)
-    entries = Entries(
-        path,
-        kind,
-        method,
-        np.column_stack([rows[at, 0], omega[at, step]]),
-        np.column_stack([heading[at], heading[at]]),
-        [label] * at.size,
-        loads[at, step],
-        lines[at],
-    )
-    return entries.phased(np.tile(point, (at.size, 1)), setting)
+    return [
+        of_coordinates(
+            path,
+            (kind, METHODS.get(path.stem[-2:].upper(), "pressure")),
+            (np.column_stack([rows[at, 0], omega[at, step]]), heading[at]),
+            [label],
+            loads[at, step][:, None],
+            lines[at],
+            wave_point=number_of.many("Ref.pt incident wave", 2),
+        )
+    ]
 
 
 def _second(path: Path, omega: Array, steps: Array, kept: Array) -> Array:

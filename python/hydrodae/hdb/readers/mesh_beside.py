@@ -22,17 +22,7 @@ ALIKE = 0.1
 
 
 def statics_of_mesh(data: SourceData, root: Path, name: str, mesh: str) -> None:
-    """Take the hydrostatics of a body from its mesh; report what was taken, or what is needed.
-
-    Parameters
-    ----------
-    data : SourceData
-        With its forces; hydrostatics, files and findings are added.
-    root : Path
-        The folder of the run.
-    name, mesh : str
-        The body, and its mesh in Nemoh.cal, without suffix.
-    """
+    """Take the hydrostatics of a body from its mesh in Nemoh.cal; report it, or what is needed."""
     missing = f"{name}: no pair of Hydrostatics and KH files"
     path = mesh_file(root, mesh)
     if path is None or data.reference_points.get(name) is None:
@@ -53,18 +43,8 @@ def statics_of_file(
 ) -> None:
     """Take the hydrostatics of a body from one mesh file; as `statics_of_mesh`.
 
-    Parameters
-    ----------
-    data, name
-        As there.
-    path : Path
-        The mesh.
-    missing : str
-        What the source lacks, for the messages.
-    shift : (3,) array, optional
-        Place of the axes of the mesh [m].
-    area : float, optional
-        Waterplane by a stiffness of the source [m2], which the mesh must have.
+    `missing` is what the source lacks, for the messages, `shift` (3,) the place of the axes of the
+    mesh [m], `area` the waterplane by a stiffness of the source [m2], which the mesh must have.
     """
     point = data.reference_points[name]
     try:
@@ -108,16 +88,7 @@ def statics_of_file(
 
 
 def long_wave_share(data: SourceData, name: str, statics: Hydrostatics) -> float | None:
-    """Heave force at the lowest frequency over rho g A_w - w^2 (rho V + A); None in short waves.
-
-    Parameters
-    ----------
-    data : SourceData
-    name : str
-        The body.
-    statics : Hydrostatics
-        What is to be checked.
-    """
+    """Heave force at the lowest frequency over rho g A_w - w^2 (rho V + A); None in short waves."""
     label, force = f"{name}.heave", data.excitation
     if force is None and data.froude_krylov is not None and data.diffraction is not None:
         force = data.froude_krylov + data.diffraction

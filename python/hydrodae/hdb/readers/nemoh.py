@@ -20,8 +20,8 @@ from hydrodae.hdb.readers import nemoh_hydrostatics as nh
 from hydrodae.hdb.readers import tecplot
 from hydrodae.hdb.readers.mesh_beside import statics_of_mesh
 from hydrodae.hdb.readers.nemoh_cal import CalBody, NemohCal, read_cal
-from hydrodae.hdb.readers.source import Scales, SourceData
-from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.hdb.readers.setting import Setting
+from hydrodae.hdb.readers.source import SourceData
 from hydrodae.support.arrays import Array, Complex
 from hydrodae.support.naming import names_file
 
@@ -94,7 +94,7 @@ def _read_tables(root: Path, cal: NemohCal, names: list[str], files: list[Path])
             values = values if order is None else values[:, :, order]
             tables[key] = values[up][:, :, rows]
             files.append(force_file)
-    return SourceData(
+    data = SourceData(
         coordinates=tuple(f"{names[i]}.{DOFS[d]}" for i, d in kept),
         omega=omega[up],
         added_mass=a[up][:, rows][:, :, columns],
@@ -111,8 +111,10 @@ def _read_tables(root: Path, cal: NemohCal, names: list[str], files: list[Path])
         title=f"Nemoh folder {root.name}",
         files=files,
         findings=findings,
-        scales=Scales(tuple(f"{names[i]}.{DOFS[d]}" for i, d in forces), wave_point=cal.origin),
+        setting=Setting(tuple(f"{names[i]}.{DOFS[d]}" for i, d in forces), wave_point=cal.origin),
     )
+    data.to_origin(dict.fromkeys(names, cal.origin))
+    return data
 
 
 @names_file
@@ -169,7 +171,7 @@ def _zone_order(blocks: list[tecplot.Block], motions: list[Mode]) -> list[int] |
 def _read_forces(
     path: Path, omega: Array, count: int, cal: NemohCal, known_deg: Array
 ) -> tuple[Complex, Array]:
-    """Return forces (nw, nh, n) in the project convention and the headings [deg]."""
+    """Return forces (nw, nh, n) of e^{+iwt}, phase zero at XEFF, YEFF, and the headings [deg]."""
     header, blocks = tecplot.read_blocks(path)
     meaning = f"frequency and (amplitude, phase) of the {count} forces of Nemoh.cal"
     values = np.empty((omega.size, len(blocks), count), dtype=complex)
@@ -182,11 +184,7 @@ def _read_forces(
         raise DatabaseError("headings differ from those of the other force files").about(
             "conflict", "headings"
         )
-    # the file has its phase zero at (XEFF, YEFF), the project at the origin
-    k = wavenumber(omega, cal.depth, cal.gravity)
-    beta = np.radians(heading_deg)
-    path_length = cal.origin[0] * np.cos(beta) + cal.origin[1] * np.sin(beta)
-    return values * np.exp(-1j * k[:, None] * path_length)[:, :, None], heading_deg
+    return values, heading_deg
 
 
 def _headings(blocks: list[tecplot.Block], cal: NemohCal) -> Array:

@@ -14,12 +14,12 @@ import numpy as np
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.readers.quadratic import Entries
+from hydrodae.hdb.readers.rows import LOAD, PAIRS, check_parts, read_rows
 from hydrodae.hdb.readers.setting import Setting
-from hydrodae.hdb.readers.text import read_lines, read_rows
-from hydrodae.hdb.readers.wamit_tables import LOAD, PAIRS, check_parts
+from hydrodae.hdb.readers.text import read_lines
 
 COLUMNS = replace(PAIRS, meaning=f"two frequencies, two headings, {LOAD}")
-_NAME = re.compile(r"OUT_QTF([MP])(_.*)?\.dat$", re.IGNORECASE)
+NAMES = re.compile(r"OUT_QTF([MP])(_.*)?\.dat$", re.IGNORECASE)
 #: Words of the head of the first column, and how it gives rad/s.
 UNITS = {
     "rad/s": lambda x: x,
@@ -30,7 +30,7 @@ UNITS = {
 
 def find(source: Path) -> list[Path]:
     """Return the files of a folder, or in `results/QTF` or `QTF` of it, or a file of that name."""
-    if source.is_file() and _NAME.search(source.name):
+    if source.is_file() and NAMES.search(source.name):
         return [source]
     if source.is_file() and source.suffix.lower() != ".cal":
         return []
@@ -39,10 +39,10 @@ def find(source: Path) -> list[Path]:
     below = [p for p in sorted(root.iterdir()) if p.is_dir() and p.name.lower() in names]
     deeper = [p for folder in below for p in sorted(folder.iterdir())]
     folders = [root, *below, *(p for p in deeper if p.is_dir() and p.name.lower() in names)]
-    return [p for folder in folders for p in sorted(folder.iterdir()) if _NAME.search(p.name)]
+    return [p for folder in folders for p in sorted(folder.iterdir()) if NAMES.search(p.name)]
 
 
-def read(path: Path, setting: Setting, findings: list[Finding]) -> Entries:
+def read(path: Path, setting: Setting, findings: list[Finding]) -> list[Entries]:
     """Read one file.
 
     Raises
@@ -50,7 +50,7 @@ def read(path: Path, setting: Setting, findings: list[Finding]) -> Entries:
     DatabaseError
         A line of another form, a head without units, or a mode of another body.
     """
-    match = _NAME.search(path.name)
+    match = NAMES.search(path.name)
     assert match is not None  # that is what `find` returns
     head = next(iter(read_lines(path)), "")
     unit = re.search(r"1\[(\S+?)\]", head)
@@ -61,14 +61,16 @@ def read(path: Path, setting: Setting, findings: list[Finding]) -> Entries:
         ).about("format", "head", file=path, line=1)
     rows = read_rows(path, COLUMNS)
     check_parts(rows, findings)
-    entries = Entries(
-        path,
-        "difference" if match[1].upper() == "M" else "sum",
-        "pressure",
-        UNITS[unit[1].lower()](rows.waves),
-        np.radians(rows.headings),
-        setting.labels_of(rows),
-        setting.rho * setting.gravity * rows.loads.conj(),
-        rows.lines,
-    )
-    return entries.phased(np.tile(setting.wave_point, (rows.lines.size, 1)), setting)
+    return [
+        Entries(
+            path,
+            "difference" if match[1].upper() == "M" else "sum",
+            "pressure",
+            UNITS[unit[1].lower()](rows.waves),
+            np.radians(rows.headings),
+            rows.labels(setting),
+            setting.rho * setting.gravity * rows.loads.conj(),
+            rows.lines,
+            setting.wave_point,
+        )
+    ]

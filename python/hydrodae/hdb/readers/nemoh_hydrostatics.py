@@ -78,15 +78,7 @@ def read_all(
     """Read the hydrostatics of every body of a folder; None where a file is missing.
 
     Nemoh's mesher writes `KH.dat` with the density of its own input. A stiffness of another density
-    is scaled to `rho`, which the findings report.
-
-    Parameters
-    ----------
-    root : Path
-    count : int
-        Number of bodies.
-    rho, gravity : float
-        Of the tables [kg/m3], [m/s2].
+    is scaled to `rho` [kg/m3], that of the tables, which the findings report.
 
     Raises
     ------
@@ -113,19 +105,8 @@ def total_of_all_bodies(
     Equal displacements are legitimate for equal bodies; then the heave excitation at the lowest
     frequency tends to rho g A_w of the single body.
 
-    Parameters
-    ----------
-    found : list
-        Result of `read_all`.
-    heave_force : (bodies,) array or None
-        |F_3| at the lowest frequency [N/m], NaN where a body has no heave.
-    rho, gravity : float
-        [kg/m3], [m/s2].
-
-    Returns
-    -------
-    Finding or None
-        None if the files can be trusted.
+    `heave_force` is |F_3| of each body at the lowest frequency [N/m], NaN where it has no heave.
+    None if the files can be trusted.
     """
     present = [f.hydrostatics for f in found if f is not None]
     if len(present) < 2:
@@ -160,26 +141,8 @@ def from_meshes(
 ) -> list[tuple[Hydrostatics, Path]] | None:
     """Hydrostatics body by body from the meshes of a folder, if their sum is what its files say.
 
-    Parameters
-    ----------
-    root : Path
-        The folder.
-    meshes : list of str
-        Names of the meshes in Nemoh.cal, without suffix.
-    total : Hydrostatics
-        What the files hold for every body: the sum of all.
-    points : list of (3,) arrays
-        Reference points of the bodies [m].
-
-    Returns
-    -------
-    list of (Hydrostatics, Path) or None
-        About `points`, and the mesh files; None if a mesh is missing or the sum is another.
-
-    Raises
-    ------
-    DatabaseError
-        A mesh file is wrong.
+    They are about `points` (3,) [m], each with its mesh file; `meshes` are the names in Nemoh.cal.
+    None if a mesh is missing or wrong, or their sum is not the `total` that the files hold.
     """
     result = []
     for name, point in zip(meshes, points, strict=True):

@@ -16,7 +16,6 @@ import numpy as np
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.coordinates import unique_names
 from hydrodae.hdb.database.findings import Finding
-from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import six_of_each
 from hydrodae.hdb.readers.foreign import CONVERTER
 from hydrodae.hdb.readers.formats import Format
@@ -25,7 +24,6 @@ from hydrodae.hdb.readers.orcayaml import read_yaml
 from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
 from hydrodae.hdb.readers.symmetric import mirrored_forces, turned_forces
 from hydrodae.hdb.readers.text import line_of, only, read_text
-from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.support.arrays import Array, Complex
 from hydrodae.support.naming import names_file
 
@@ -92,7 +90,7 @@ def read_orcawave(path: Path) -> SourceData:
     findings: list[Finding] = []
     units = units_of(path, model.get("General") or {})
     rho, gravity, depth, files = water_of(path, model, findings)
-    bodies = [Vessel(path, vessel, depth, gravity, units) for vessel in types]
+    bodies = [Vessel(path, vessel, units) for vessel in types]
     names = unique_names([str(b.name).removesuffix(" type") for b in bodies])
     omega, heading = bodies[0].omega, bodies[0].heading
     for body in bodies[1:]:
@@ -129,22 +127,33 @@ def read_orcawave(path: Path) -> SourceData:
         files=files,
         findings=findings,
     )
+    data.to_origin({name: b.wave_point for name, b in zip(names, bodies, strict=True)})
     for name, body in zip(names, bodies, strict=True):
-        statics = body.hydrostatics(rho, gravity)
+        statics = body.hydrostatics()
         if statics is None:
             text = f"{name}: the stiffness is not about the centre of mass; left out"
             findings.append(without_hydrostatics(text, [name]))
         else:
-            data.hydrostatics[name] = (statics, body.point)
+            data.add_statics(name, *statics)
     return data
+
+
+def starting(block: dict[str, Any], word: str) -> Any:
+    """Return the value of the first key that begins with a word; None without one."""
+    return next((value for key, value in block.items() if key.startswith(word)), None)
+
+
+def all_round(symmetry: str, heading: Array, force: Complex) -> tuple[Array, Complex]:
+    """Add the headings [rad] that a symmetry of OrcaFlex gives to a force (nw, nh, 6)."""
+    if symmetry == "Circular":
+        return turned_forces(heading, force)
+    return mirrored_forces(heading, force, **SYMMETRIES[symmetry])
 
 
 class Vessel:
     """Tables of one vessel type, at its first draught, in SI units, and what reads its numbers."""
 
-    def __init__(
-        self, path: Path, vessel: dict[str, Any], depth: float, gravity: float, units: Units
-    ) -> None:
+    def __init__(self, path: Path, vessel: dict[str, Any], units: Units) -> None:
         self.path, self.name, self.units = path, vessel.get("Name", "vessel"), units
         self.sign = np.array(
             [1.0 if vessel.get(key, word) == word else -1.0 for key, word in SENSES.items()]
@@ -167,7 +176,7 @@ class Vessel:
         self.omega, self.added_mass, self.damping = w[order], a[order], b[order]
         self.at_infinity = a[np.isinf(w)][0] if np.isinf(w).any() else None
         self.point = self.vector(draught, "ReferenceOrigin")
-        self.heading, self.force = self._forces(vessel, depth, gravity)
+        self.heading, self.force = self._forces(vessel)
 
     def entry(self, where: dict[str, Any], key: str) -> list[Any]:
         """Return a list that must be there."""
@@ -210,9 +219,18 @@ class Vessel:
             return float(np.inf)
         return float(2.0 * np.pi / value)
 
+    def rows_of(self, rows: list[Any], key: str, waves: int, columns: int) -> Array:
+        """Return rows of periods of waves and values, without those of w = 0 and inf; [rad/s]."""
+        given = [
+            [*(self.omega_of(w) for w in row[:waves]), *row[waves:]]
+            for row in rows
+            if isinstance(row, list) and row
+        ]
+        table = self.numbers(given, key, (len(rows), columns))
+        return table[np.all(np.isfinite(table[:, :waves]) & (table[:, :waves] > 0.0), axis=1)]
+
     def _square(self, entry: dict[str, Any], first: str, unit: float) -> Array:
-        rows = next((v for key, v in entry.items() if key.startswith(first)), None)
-        table = self.numbers(rows, first, (6, 6))
+        table = self.numbers(starting(entry, first), first, (6, 6))
         return unit * table * np.outer(self.scale, self.scale)
 
     @property
@@ -238,10 +256,8 @@ class Vessel:
         sense *= np.pi / 180.0 if unit == "degrees" else 1.0
         return sense, 1.0 if relative == "crest" else -1.0
 
-    def _forces(
-        self, vessel: dict[str, Any], depth: float, gravity: float
-    ) -> tuple[Array, Complex]:
-        """Headings [rad] and excitation (nw, nh, 6) about the reference origin."""
+    def _forces(self, vessel: dict[str, Any]) -> tuple[Array, Complex]:
+        """Headings [rad] and excitation (nw, nh, 6), with its phase zero at `wave_point`."""
         loads = self.draught.get("LoadRAOs") or {}
         blocks = self.entry(loads, "RAOs")
         self.check_origin(loads)
@@ -253,32 +269,19 @@ class Vessel:
         heading = self.numbers(stated, "RAODirection", (len(blocks),))
         result = np.empty((self.omega.size, heading.size, 6), dtype=complex)
         for h, block in enumerate(blocks):
-            rows: list[Any] = next(
-                (v for key, v in block.items() if key.startswith("RAOPeriod")), []
-            )
-            given = [
-                [self.omega_of(row[0]), *row[1:]] for row in rows if isinstance(row, list) and row
-            ]
-            table = self.numbers(given, "LoadRAOs", (len(rows), 13))
-            table = table[np.isfinite(table[:, 0]) & (table[:, 0] > 0.0)]
+            table = self.rows_of(starting(block, "RAOPeriod") or [], "LoadRAOs", 1, 13)
             table = table[np.argsort(table[:, 0])]
             if table.shape != (self.omega.size, 13) or not np.allclose(table[:, 0], self.omega):
                 raise DatabaseError(
                     f"{self.name}: LoadRAOs at other frequencies than added mass"
                 ).about("conflict", "frequencies")
             result[:, h] = factor * table[:, 1::2] * np.exp(1j * sense * table[:, 2::2])
-        place = self.phase_place(loads)
+        self.wave_point = self.phase_place(loads)
         result *= self.scale
         beta = np.radians(heading)
-        if self.symmetry == "Circular":
-            beta, result = turned_forces(beta, result)
-        else:
-            beta, result = mirrored_forces(beta, result, **SYMMETRIES[self.symmetry])
+        beta, result = all_round(self.symmetry, beta, result)
         order = np.argsort(beta)
-        beta, result = beta[order], result[:, order]
-        k = wavenumber(self.omega, depth, gravity)
-        along = place[0] * np.cos(beta) + place[1] * np.sin(beta)
-        return beta, result * np.exp(-1j * np.outer(k, along))[:, :, None]
+        return beta[order], result[:, order]
 
     def check_origin(self, loads: dict[str, Any]) -> None:
         """Refuse loads about another point than the reference origin."""
@@ -295,14 +298,12 @@ class Vessel:
             return self.point
         return self.vector(loads, "PhaseOrigin")
 
-    def hydrostatics(self, rho: float, gravity: float) -> Hydrostatics | None:
-        """Waterplane from the stiffness of heave, roll and pitch, about the centre of mass.
+    def hydrostatics(self) -> tuple[Array, Array, float, Array] | None:
+        """Stiffness of heave, roll and pitch, its point, volume and centre of buoyancy.
 
         None if it is about another point: then the weight may or may not be in it.
         """
-        rows = next(
-            (v for key, v in self.draught.items() if key.startswith("HydrostaticStiffnessz")), None
-        )
+        rows = starting(self.draught, "HydrostaticStiffnessz")
         block = self.numbers(rows, "HydrostaticStiffness", (3, 3))
         stiffness = np.zeros((6, 6))
         scale = self.scale[2:5]
@@ -317,8 +318,7 @@ class Vessel:
                 "format", "DisplacedVolume"
             )
         volume *= self.units.length**3
-        center = self.vector(self.draught, "CentreOfBuoyancy")
-        return Hydrostatics.from_stiffness(stiffness, self.point, volume, center, rho, gravity)
+        return stiffness, self.point, volume, self.vector(self.draught, "CentreOfBuoyancy")
 
 
 FORMAT = Format(".yml with OrcaWave's results", orcawave_file, read_orcawave)

@@ -13,13 +13,12 @@ import numpy as np
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
-from hydrodae.hdb.labels import DOFS
-from hydrodae.hdb.readers.orcawave import SYMMETRIES, Vessel
+from hydrodae.hdb.labels import six_of_each
+from hydrodae.hdb.readers.orcawave import Vessel, all_round, starting
 from hydrodae.hdb.readers.orcawave_units import units_of
 from hydrodae.hdb.readers.orcayaml import read_yaml
-from hydrodae.hdb.readers.quadratic import Entries
+from hydrodae.hdb.readers.quadratic import Entries, of_coordinates
 from hydrodae.hdb.readers.setting import Setting
-from hydrodae.hdb.readers.symmetric import mirrored_forces, turned_forces
 from hydrodae.hdb.readers.text import read_text
 from hydrodae.support.arrays import Array, Complex
 
@@ -55,7 +54,7 @@ def read(path: Path, setting: Setting, findings: list[Finding]) -> list[Entries]
     found: list[Entries] = []
     for body, vessel in zip(setting.bodies, types, strict=True):
         try:
-            read_vessel = Vessel(path, vessel, setting.depth, setting.gravity, units)
+            read_vessel = Vessel(path, vessel, units)
             found += _of_vessel(path, vessel, read_vessel, body, setting)
         except DatabaseError as error:
             raise error.in_file(path) from None
@@ -74,7 +73,7 @@ def _of_vessel(
     found = []
     for key, kind in KEYS.items():
         loads = read.draught.get(key) or {}
-        pairs = next((rows for name, rows in loads.items() if name.startswith(PAIR)), None)
+        pairs = starting(loads, PAIR)
         if not pairs and not loads.get("RAOs"):
             continue
         read.check_origin(loads)
@@ -84,9 +83,12 @@ def _of_vessel(
             kind = "mean"
             waves, heading, values = _diagonal(read, loads)
         values = values * read.scale * read.units.force / read.units.length**2
-        entries = _entries(path, kind, read, body, (waves, heading, values))
+        waves, heading, values = _all_round(read.symmetry, waves, heading, values)
         place = read.phase_place(loads) if pairs else read.point
-        found.append(entries.phased(np.tile(place[:2], (len(entries.labels), 1)), setting))
+        labels, of = six_of_each([body]), (kind, METHOD)
+        found.append(
+            of_coordinates(path, of, (waves, heading), labels, values, wave_point=place[:2])
+        )
     return found
 
 
@@ -94,10 +96,7 @@ def _diagonal(read: Vessel, loads: dict[str, Any]) -> tuple[Array, Array, Comple
     """Return frequencies (m, 2), headings (m, 2) [rad] and loads (m, 6) of mean drift."""
     waves, headings, values = [], [], []
     for block in read.entry(loads, "RAOs"):
-        rows: list[Any] = next((v for name, v in block.items() if name.startswith(AMPLITUDE)), [])
-        given = [[read.omega_of(row[0]), *row[1:]] for row in rows]
-        table = read.numbers(given, "WaveDrift", (len(rows), 7))
-        table = table[np.isfinite(table[:, 0]) & (table[:, 0] > 0.0)]
+        table = read.rows_of(starting(block, AMPLITUDE) or [], "WaveDrift", 1, 7)
         direction = read.numbers([block.get("RAODirection")], "RAODirection", (1,))
         waves.append(np.column_stack([table[:, 0], table[:, 0]]))
         headings.append(np.full((len(table), 2), np.radians(direction[0])))
@@ -107,49 +106,27 @@ def _diagonal(read: Vessel, loads: dict[str, Any]) -> tuple[Array, Array, Comple
 
 def _pairs(read: Vessel, rows: list[Any], sense: float) -> tuple[Array, Array, Complex]:
     """Return frequencies (m, 2), headings (m, 2) [rad] and loads (m, 6) of pairs of waves."""
-    given = [[read.omega_of(row[0]), read.omega_of(row[1]), *row[2:]] for row in rows]
-    table = read.numbers(given, "QTFs", (len(rows), 16))
-    table = table[np.all(np.isfinite(table[:, :2]) & (table[:, :2] > 0.0), axis=1)]
+    table = read.rows_of(rows, "QTFs", 2, 16)
     values = table[:, 4::2] * np.exp(1j * sense * table[:, 5::2])
     return table[:, :2], np.radians(table[:, 2:4]), values
-
-
-def _entries(
-    path: Path, kind: str, read: Vessel, body: str, table: tuple[Array, Array, Complex]
-) -> Entries:
-    """Return the lines of a table, with those that the symmetry of the vessel adds."""
-    waves, heading, values = table
-    if read.symmetry != "None" and not np.array_equal(heading[:, 0], heading[:, 1]):
-        raise DatabaseError(
-            f"Symmetry {read.symmetry!r} with pairs of headings: save all directions in OrcaFlex "
-            f"(Symmetry: None)"
-        ).about("unsupported", "Symmetry")
-    if read.symmetry != "None":
-        waves, heading, values = _all_round(read.symmetry, waves, heading, values)
-    return Entries(
-        path,
-        kind,
-        METHOD,
-        np.repeat(waves, len(DOFS), axis=0),
-        np.repeat(heading, len(DOFS), axis=0),
-        [f"{body}.{motion}" for motion in DOFS] * len(waves),
-        values.reshape(-1),
-        np.zeros(values.size, dtype=int),
-    )
 
 
 def _all_round(
     symmetry: str, waves: Array, heading: Array, values: Complex
 ) -> tuple[Array, Array, Complex]:
     """Add the mirror images, or turn the loads of a body of revolution, one pair after another."""
+    if symmetry == "None":
+        return waves, heading, values
+    if not np.array_equal(heading[:, 0], heading[:, 1]):
+        raise DatabaseError(
+            f"Symmetry {symmetry!r} with pairs of headings: save all directions in OrcaFlex "
+            f"(Symmetry: None)"
+        ).about("unsupported", "Symmetry")
     found: list[tuple[Array, Array, Complex]] = []
     for pair in np.unique(waves, axis=0):
         here = np.all(waves == pair, axis=1)
         beta, load = heading[here, 0], values[None, here]
-        if symmetry == "Circular":
-            beta, load = turned_forces(beta, load)
-        else:
-            beta, load = mirrored_forces(beta, load, **SYMMETRIES[symmetry])
+        beta, load = all_round(symmetry, beta, load)
         both = np.column_stack([beta, beta])
         found.append((np.tile(pair, (beta.size, 1)), both, load[0]))
     return tuple(np.concatenate(x) for x in zip(*found, strict=True))  # type: ignore[return-value]

@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.second_order import KINDS, SecondOrderTable, largest_of_unit
 from hydrodae.hdb.labels import read_labels
 from hydrodae.hdb.readers.setting import Setting
-from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.hdb.relations.dispersion import phase_at
 from hydrodae.support.arrays import Array, Complex
 
 #: Files print four digits or more, so halves of one table agree to 1e-4 of its largest value; what
@@ -23,7 +24,7 @@ SAME_TABLE = 1e-3
 
 @dataclass(frozen=True)
 class Entries:
-    """Lines of a file, each one load of two waves, in the convention of the project.
+    """Loads of two waves each, in SI units and of e^{+iwt}, as the lines of files give them.
 
     Attributes
     ----------
@@ -32,12 +33,14 @@ class Entries:
         As of `SecondOrderTable`.
     omega, heading : (m, 2) arrays
         Of the first and the second wave [rad/s], [rad].
-    labels : list of m str
+    labels : (m,) array of str
         Coordinate of each.
     values : (m,) complex array
         [N/m2, N m/m2].
     lines : (m,) array of int
         Line number of each; 0 where the file has none.
+    wave_point : (2,) or (m, 2) array, optional
+        Where the waves have their phase zero, if that is not the origin [m].
     files : tuple of Path
         Others that were read with it.
     about_origin : bool
@@ -49,39 +52,52 @@ class Entries:
     method: str
     omega: Array
     heading: Array
-    labels: list[str]
+    labels: NDArray[np.str_]
     values: Complex
     lines: NDArray[np.int_]
+    wave_point: ArrayLike | None = None
     files: tuple[Path, ...] = ()
     about_origin: bool = False
 
-    def phased(self, point: Array, setting: Setting) -> Entries:
-        """Return the loads by waves whose phase is zero at the origin, not at (m, 2) points [m]."""
-        along = point[..., None, 0] * np.cos(self.heading) + point[..., None, 1] * np.sin(
-            self.heading
-        )
-        k = wavenumber(self.omega.ravel(), setting.depth, setting.gravity).reshape(self.omega.shape)
-        phase = k * along
+    def phased(self, setting: Setting) -> Entries:
+        """Return the loads by waves whose phase is zero at the origin."""
+        if self.wave_point is None:
+            return self
+        place = np.broadcast_to(np.asarray(self.wave_point, dtype=float), self.omega.shape)
+        phase = phase_at(place[:, None], self.omega, self.heading, setting.depth, setting.gravity)
         sign = -1.0 if KINDS[self.kind].hermitian else 1.0
         turned = self.values * np.exp(-1j * (phase[:, 0] + sign * phase[:, 1]))
-        return replace(self, values=turned)
+        return replace(self, values=turned, wave_point=None)
+
+
+def of_coordinates(
+    path: Path,
+    of: tuple[str, str],
+    waves: tuple[Array, Array],
+    labels: Sequence[str],
+    values: Complex,
+    lines: ArrayLike = 0,
+    **more: Any,
+) -> Entries:
+    """Return the entries of a table whose lines hold the loads (m, n) of n coordinates.
+
+    `of` are kind and method, `waves` frequencies [rad/s] and headings [rad] of m pairs of waves,
+    (m, 2), or (m,) of one wave each; `lines` and `more` as in `Entries`.
+    """
+    m, n = values.shape
+    both = (np.column_stack([x, x]) if x.ndim == 1 else x for x in waves)
+    omega, heading = (np.repeat(x, n, axis=0) for x in both)
+    at = np.repeat(np.broadcast_to(lines, m), n)
+    return Entries(path, *of, omega, heading, np.tile(labels, m), values.ravel(), at, **more)
 
 
 def joined(parts: Sequence[Entries]) -> Entries:
     """Return the lines of several files of one kind and method as those of one."""
-    first = parts[0]
-    return Entries(
-        first.file,
-        first.kind,
-        first.method,
-        np.concatenate([p.omega for p in parts]),
-        np.concatenate([p.heading for p in parts]),
-        [label for p in parts for label in p.labels],
-        np.concatenate([p.values for p in parts]),
-        np.concatenate([p.lines for p in parts]),
-        tuple(dict.fromkeys(p.file for p in parts)),
-        first.about_origin,
-    )
+    columns: dict[str, Any] = {
+        name: np.concatenate([getattr(p, name) for p in parts])
+        for name in ("omega", "heading", "labels", "values", "lines")
+    }
+    return replace(parts[0], **columns, files=tuple(dict.fromkeys(p.file for p in parts)))
 
 
 def tabulate(entries: Entries, setting: Setting) -> SecondOrderTable | None:

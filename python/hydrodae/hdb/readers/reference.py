@@ -42,18 +42,8 @@ def origin_by_moments(data: SourceData, body: str, statics: Hydrostatics) -> flo
     likewise: A_51 of the tables shares their point, so that a point dz higher changes the bracket
     by rho g V dz, and one dx ahead S_x by A_w dx. Surge, which leads, shows the time convention.
 
-    Parameters
-    ----------
-    data : SourceData
-        With its forces.
-    body : str
-    statics : Hydrostatics
-        With waterplane moments about the origin.
-
-    Returns
-    -------
-    float or None
-        Over the sizes of its parts; None if no wave is long enough, or a motion is lacking.
+    It is over the sizes of its parts; None if no wave is long enough, or a motion is lacking.
+    Waterplane moments are about the origin.
     """
     at = {dof: f"{body}.{dof}" for dof in ("surge", "heave", "roll", "pitch")}
     if data.excitation is None or any(label not in data.coordinates for label in at.values()):
@@ -83,16 +73,7 @@ def assume_by_statics(data: SourceData, body: str, found: FileHydrostatics) -> N
 
     About a point p the Froude-Krylov moment in long waves is FK_5 = i k cos(beta) K_55(p) - ...,
     with the buoyancy stiffness K_55(p): that shows the height of p. Where neither
-    point fits none is taken.
-
-    Parameters
-    ----------
-    data : SourceData
-        With its forces; what was assumed is added to the findings.
-    body : str
-        Name of the body.
-    found : FileHydrostatics
-        From the files beside the source.
+    point fits none is taken. What was assumed is added to the findings.
     """
     candidates = {
         f"the centre of gravity in {found.files[0].name}": found.center_of_gravity,

@@ -27,7 +27,7 @@ from hydrodae.hdb.readers import (
 )
 from hydrodae.hdb.readers.quadratic import Entries, joined, tabulate
 from hydrodae.hdb.readers.setting import Setting
-from hydrodae.hdb.readers.source import Scales, SourceData
+from hydrodae.hdb.readers.source import SourceData
 
 READERS: dict[str, ModuleType] = {
     "wamit": wamit_drift,
@@ -87,7 +87,7 @@ def unread_beside(path: Path, taken: Sequence[Path]) -> list[Path]:
     runs = {p.stem.lower() for p in files if p.suffix.lower() in FIRST_ORDER}
     runs -= {path.stem.lower()}
     alone = [p for p in files if p.stem.lower() not in runs and p.suffix.lower() not in FIRST_ORDER]
-    found = [p for p in alone if any(reader.find(p) == [p] for reader in SEPARATE)]
+    found = [p for p in alone if any(r.NAMES.search(p.name) and r.find(p) for r in SEPARATE)]
     found += [p for p in nemoh_drift.find(folder) if p not in found]
     return [p for p in found if p not in taken and p != path]
 
@@ -132,21 +132,18 @@ def named(
 
 def setting_of(owner: SourceData | HydroDatabase) -> Setting:
     """Return what tables of second order take from the database that they belong to."""
-    scales = owner.scales if isinstance(owner, SourceData) else Scales()
+    setting = owner.setting if isinstance(owner, SourceData) else Setting()
     if isinstance(owner, SourceData):
         points = dict(owner.reference_points)
     else:
         points = {name: body.reference_point for name, body in owner.bodies.items()}
-    return Setting(
-        labels=scales.modes or six_of_each(bodies_of(owner.coordinates)),
+    return replace(
+        setting,
+        labels=setting.labels or six_of_each(bodies_of(owner.coordinates)),
         rho=owner.rho,
         gravity=owner.gravity,
         depth=owner.water_depth,
         points=points,
-        length=scales.length,
-        first_column=scales.first_column,
-        unit=scales.unit,
-        wave_point=scales.wave_point,
     )
 
 
@@ -165,10 +162,7 @@ def _known(path: Path) -> list[tuple[ModuleType, Path]]:
 def _read(
     reader: ModuleType, path: Path, setting: Setting, findings: list[Finding]
 ) -> list[Entries]:
-    found = reader.read(path, setting, findings)
-    if found is None:
-        return []
-    return found if isinstance(found, list) else [found]
+    return [entries.phased(setting) for entries in reader.read(path, setting, findings)]
 
 
 def _tables(

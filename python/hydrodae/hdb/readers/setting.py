@@ -9,36 +9,33 @@ import numpy as np
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.labels import bodies_of
-from hydrodae.hdb.readers.text import Rows
 from hydrodae.support.arrays import Array
 
 
 @dataclass(frozen=True)
 class Setting:
-    """What a database says and its tables of second order leave out.
+    """How a source writes what stands beside its tables, and the database that these belong to.
 
     Attributes
     ----------
     labels : tuple of str
-        Coordinate of each number of a mode, from 1 on.
+        Coordinate of each number of a mode, from 1 on; empty: six of each body.
     rho, gravity, depth : float
         Of the water [kg/m3, m/s2, m].
     points : dict of (3,) arrays or None
         Point of the moments of each body [m]; None where it is not known.
-    length : float
-        Length scale of WAMIT's tables, ULEN [m].
-    first_column : int
-        What the first column of WAMIT's tables holds (IPEROUT).
+    length, first_column
+        Length scale of WAMIT's tables, ULEN [m], and what their first column holds (IPEROUT).
     unit : float
         Newtons in the unit of force of AQWA's tables.
     wave_point : (2,) tuple
         Where the wave of Nemoh's tables has its phase zero [m].
     """
 
-    labels: tuple[str, ...]
-    rho: float
-    gravity: float
-    depth: float
+    labels: tuple[str, ...] = ()
+    rho: float = np.nan
+    gravity: float = np.nan
+    depth: float = np.nan
     points: dict[str, Array | None] = field(default_factory=dict)
     length: float = 1.0
     first_column: int = 1
@@ -58,11 +55,6 @@ class Setting:
                 f"{', '.join(self.bodies)}: a table of other bodies?"
             ).about("label", "modes", file=file, line=line)
         return self.labels[int(mode) - 1]
-
-    def labels_of(self, rows: Rows) -> list[str]:
-        """Return the coordinate of the mode of each line."""
-        modes = zip(rows.modes[:, 0], rows.lines, strict=True)
-        return [self.label_of(mode, rows.path, int(line)) for mode, line in modes]
 
     def check(self, what: str, stated: float, known: float, file: Path, unit: str) -> None:
         """Refuse what a file states of the water, if the database is of another.

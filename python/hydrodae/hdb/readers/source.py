@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from hydrodae.hdb.database.extra import SourceTable
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.second_order import SecondOrderTable
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import Label, read_labels
+from hydrodae.hdb.readers.setting import Setting
+from hydrodae.hdb.relations.dispersion import phase_at
 from hydrodae.support.arrays import Array, Complex
 
 #: What a source holds of each frequency.
@@ -40,29 +42,6 @@ class Water:
     gravity: float | None = None
 
 
-@dataclass(frozen=True)
-class Scales:
-    """How a source writes what stands beside its tables, for those of second order.
-
-    Attributes
-    ----------
-    modes : tuple of str
-        Coordinate of each number of a mode, from 1 on; empty: six of each body.
-    length, first_column
-        ULEN [m] and IPEROUT of WAMIT.
-    unit : float
-        Newtons in the unit of force of AQWA.
-    wave_point : (2,) tuple
-        Where the wave of Nemoh has its phase zero [m].
-    """
-
-    modes: tuple[str, ...] = ()
-    length: float = 1.0
-    first_column: int = 1
-    unit: float = 1.0
-    wave_point: tuple[float, float] = (0.0, 0.0)
-
-
 @dataclass
 class SourceData:
     """Tables as a reader understood them: project convention, but neither complete nor symmetric.
@@ -78,8 +57,8 @@ class SourceData:
     hydrostatics : dict
         By body, each with the point [m] that its waterplane moments refer to; bodies without are
         absent.
-    added_mass_inf : (n, n) array or None
-        Given by the source itself.
+    added_mass_inf, added_mass_zero : (n, n) array or None
+        Those of w = inf and w = 0, given by the source itself.
     files : list of Path
         What was read; hashed for `source_sha256`.
     findings : list of Finding
@@ -96,8 +75,8 @@ class SourceData:
     statics_about : dict of functions
         By body, hydrostatics that the source holds about its point [m], which it does not state;
         text where they are not complete.
-    scales : Scales
-        How the source writes tables of second order.
+    setting : Setting
+        How the source writes tables of second order; its water and points are left out.
     second_order : dict of SecondOrderTable
         As in `HydroDatabase`.
     """
@@ -118,6 +97,7 @@ class SourceData:
     reference_points: dict[str, Array | None] = field(default_factory=dict)
     hydrostatics: dict[str, tuple[Hydrostatics, Array]] = field(default_factory=dict)
     added_mass_inf: Array | None = None
+    added_mass_zero: Array | None = None
     files: list[Path] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
     assumed_points: dict[str, Finding] = field(default_factory=dict)
@@ -125,7 +105,7 @@ class SourceData:
     extra: dict[str, SourceTable] = field(default_factory=dict)
     mode_stiffness: dict[str, Array] = field(default_factory=dict)
     statics_about: dict[str, Callable[[Array], Hydrostatics | str]] = field(default_factory=dict)
-    scales: Scales = field(default_factory=Scales)
+    setting: Setting = field(default_factory=Setting)
     second_order: dict[str, SecondOrderTable] = field(default_factory=dict)
 
     @property
@@ -140,6 +120,34 @@ class SourceData:
             value = getattr(self, name)
             if value is not None:
                 setattr(self, name, value[kept])
+
+    def to_origin(self, places: Mapping[str, ArrayLike]) -> None:
+        """Move the phase zero of the wave, at a place of each body [m], to the origin of the world.
+
+        Forces F with the phase zero at x_0 become F e^{-i k x_0'}, x_0' along the wave.
+        """
+        body = [label.body for label in self.labels]
+        for name in TABLES[2:]:
+            force = getattr(self, name)
+            if force is None:
+                continue
+            turned = force.copy()
+            for owner, place in places.items():
+                of_body = [i for i, of in enumerate(body) if of == owner]
+                phase = phase_at(
+                    place, self.omega[:, None], self.heading, self.water_depth, self.gravity
+                )
+                turned[:, :, of_body] *= np.exp(-1j * phase)[:, :, None]
+            setattr(self, name, turned)
+
+    def add_statics(
+        self, body: str, stiffness: Array, point: Array, volume: float, buoyancy: Array
+    ) -> None:
+        """Take the waterplane of a buoyancy stiffness (6, 6) [N/m, N, N m] about a point [m]."""
+        statics = Hydrostatics.from_stiffness(
+            stiffness, point, volume, buoyancy, self.rho, self.gravity
+        )
+        self.hydrostatics[body] = (statics, point)
 
     def assume_point(self, body: str, point: Array, why: Finding) -> None:
         """Take a reference point that the source does not state."""

@@ -1,19 +1,13 @@
-"""Text files as other programs write them: encodings, line ends, numbers of Fortran, columns."""
+"""Text files as other programs write them: names, encodings, line ends, numbers of Fortran."""
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-import numpy as np
-from numpy.typing import NDArray
-
 from hydrodae.errors import DatabaseError
-from hydrodae.support.arrays import Array, Complex
-from hydrodae.support.naming import names_file
 
 #: One number within a line; not the beginning or the end of a garbled one (`1.0x3`, `-1.#IND`).
 NUMBER = r"(?:[-+]|(?<![\w.]))(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d+)?(?![\w.#])"
@@ -91,6 +85,24 @@ def files_named(path: Path, name: str) -> list[Path]:
     return []
 
 
+def named(folder: Path | None, name: str) -> Path | None:
+    """Return what is called `name` in a folder, whatever the case, or None."""
+    if folder is None or not folder.is_dir():
+        return None
+    return next((p for p in sorted(folder.iterdir()) if p.name.lower() == name.lower()), None)
+
+
+def beside(stem: Path, suffix: str) -> Path | None:
+    """Return the file `<stem><suffix>` whatever the case of its name, or None."""
+    return named(stem.parent, stem.name + suffix)
+
+
+def lines_beside(stem: Path, suffixes: Iterable[str]) -> dict[str, tuple[Path, list[str]]]:
+    """Return the files `<stem><suffix>` that are there, with their lines, by suffix."""
+    found = {suffix: beside(stem, suffix) for suffix in suffixes}
+    return {s: (path, read_lines(path)) for s, path in found.items() if path is not None}
+
+
 def only(found: Sequence[Path]) -> Path | None:
     """Return the one file found, None of none.
 
@@ -150,120 +162,3 @@ def row_of(tokens: Sequence[str], count: int) -> list[float]:
         except ValueError:
             raise DatabaseError(f"{token!r} is not a number").about("format", line=count) from None
     return row
-
-
-@dataclass(frozen=True)
-class Columns:
-    """Columns of a file of numbers: the keys of a line, in this order, then its values.
-
-    Attributes
-    ----------
-    meaning : str
-        What a line holds, for messages.
-    waves, headings, modes, values : int
-        Columns of periods (or frequencies), headings [deg], modes from 1, and values.
-    optional : int
-        Values at the end of a line that it may lack.
-    length : float
-        Values are over rho L^length, and over another L for each rotation among their modes.
-    weight : bool
-        Values are over g, too.
-    """
-
-    meaning: str
-    waves: int
-    headings: int
-    modes: int
-    values: int
-    optional: int = 0
-    length: float = 0.0
-    weight: bool = True
-
-
-@dataclass(frozen=True)
-class Rows:
-    """Lines of a file of numbers.
-
-    Attributes
-    ----------
-    path : Path
-    columns : Columns
-    table : (m, n) array
-        Numbers that a line lacks at its end are NaN.
-    lines : (m,) array of int
-        Line number of each, from 1.
-    """
-
-    path: Path
-    columns: Columns
-    table: Array
-    lines: NDArray[np.int_]
-
-    def where(self, kept: NDArray[np.bool_]) -> Rows:
-        """Return the lines (m,) that are kept."""
-        return replace(self, table=self.table[kept], lines=self.lines[kept])
-
-    @property
-    def waves(self) -> Array:
-        """(m, waves) periods or frequencies."""
-        return self.table[:, : self.columns.waves]
-
-    @property
-    def headings(self) -> Array:
-        """(m, headings) [deg]."""
-        c = self.columns
-        return self.table[:, c.waves : c.waves + c.headings]
-
-    @property
-    def modes(self) -> Array:
-        """(m, modes) numbers of modes, from 1."""
-        c = self.columns
-        return self.table[:, c.waves + c.headings :][:, : c.modes]
-
-    @property
-    def values(self) -> Array:
-        """(m, values) numbers that belong to the keys."""
-        return self.table[:, self.table.shape[1] - self.columns.values :]
-
-    @property
-    def loads(self) -> Complex:
-        """(m,) values of which the last two columns are real and imaginary part."""
-        return np.asarray(self.table[:, -2] + 1j * self.table[:, -1])
-
-
-@names_file
-def read_rows(path: Path, columns: Columns) -> Rows:
-    """Read a file whose lines hold these columns; the first line may be a title.
-
-    Raises
-    ------
-    DatabaseError
-        The file has no line, or a line after the first is not of that form.
-    """
-    most = columns.waves + columns.headings + columns.modes + columns.values
-    least, meaning = most - columns.optional, columns.meaning
-    rows, lines = [], []
-    for count, line in enumerate(read_lines(path), start=1):
-        if not line.strip():
-            continue
-        try:
-            values = numbers(line, count, meaning)
-        except DatabaseError:
-            if count == 1:
-                continue  # the title line
-            raise
-        if not all(map(math.isfinite, values[:2])):  # period or mode; tables may hold NaN
-            keys = " ".join(line.split()[:2])
-            raise DatabaseError(f"{keys}: expected {meaning}").about("format", line=count)
-        if not least <= len(values) <= most:
-            wanted = f"{least}" if least == most else f"{least} or {most}"
-            raise DatabaseError(f"{len(values)} numbers, expected {wanted}: {meaning}").about(
-                "shape", line=count
-            )
-        rows.append(values + [np.nan] * (most - len(values)))
-        lines.append(count)
-    if not rows:
-        raise DatabaseError(f"no numbers in it; expected lines of {meaning}").about(
-            "missing", "numbers"
-        )
-    return Rows(path, columns, np.array(rows), np.array(lines))

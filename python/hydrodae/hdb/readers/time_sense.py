@@ -21,7 +21,7 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.labels import bodies_of
 from hydrodae.hdb.readers.source import SourceData
-from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.hdb.relations.dispersion import phase_at
 from hydrodae.hdb.relations.noise import scatter
 from hydrodae.support.arrays import Complex
 
@@ -73,7 +73,9 @@ def correct_time_sense(data: SourceData, stated: str | None = None) -> None:
         return
     bodies = bodies_of(data.coordinates)
     horizontal = [s for body in bodies if (s := _horizontal(data, force, body)) is not None]
-    vertical = [s for body in bodies if (s := _vertical(data, force, body)) is not None]
+    # waves that other bodies scatter hide it
+    alone = bodies if len(bodies) == 1 else ()
+    vertical = [s for body in alone if (s := _vertical(data, force, body)) is not None]
     if not horizontal or not vertical or max(horizontal) > -0.5 or max(vertical) > -0.5:
         return
     _conjugate(data, list(PARTS.values()))
@@ -188,10 +190,9 @@ def _local(data: SourceData, force: Complex, body: str, heading: int) -> Complex
     point = data.reference_points.get(body)
     if point is None:
         return force[:, heading]
-    k = wavenumber(data.omega, data.water_depth, data.gravity)
     beta = data.heading[heading]
-    along = point[0] * np.cos(beta) + point[1] * np.sin(beta)
-    return np.asarray(force[:, heading] * np.exp(1j * k * along)[:, None])
+    phase = phase_at(point, data.omega, beta, data.water_depth, data.gravity)
+    return np.asarray(force[:, heading] * np.exp(1j * phase)[:, None])
 
 
 def _horizontal(data: SourceData, force: Complex, body: str) -> float | None:
@@ -213,12 +214,9 @@ def _horizontal(data: SourceData, force: Complex, body: str) -> float | None:
 
 
 def _vertical(data: SourceData, force: Complex, body: str) -> float | None:
-    """Sign of Im F3 / (w B33) in the longest waves, where its size is 1; None if it is not.
-
-    Only of one body: waves that others scatter hide it.
-    """
+    """Sign of Im F3 / (w B33) of one body in the longest waves; None where its size is not 1."""
     label = f"{body}.heave"
-    if label not in data.coordinates or len(bodies_of(data.coordinates)) > 1:
+    if label not in data.coordinates:
         return None
     i = data.coordinates.index(label)
     value = _local(data, force, body, 0)[:LONGEST, i].imag

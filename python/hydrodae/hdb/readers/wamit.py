@@ -14,35 +14,36 @@ import numpy as np
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.coordinates import unique_names
 from hydrodae.hdb.database.findings import Finding
-from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.labels import DOFS, bodies_of, read_labels, six_of_each
 from hydrodae.hdb.readers.formats import Format
 from hydrodae.hdb.readers.mesh_beside import statics_of_file
+from hydrodae.hdb.readers.rows import (
+    COLUMNS,
+    Rows,
+    check_modes,
+    check_parts,
+    read_rows,
+    tabulate,
+    to_omega,
+    unit,
+)
 from hydrodae.hdb.readers.setting import Setting
-from hydrodae.hdb.readers.source import Scales, SourceData, Water, without_hydrostatics
-from hydrodae.hdb.readers.text import LARGEST_COUNT, Rows, read_rows
-from hydrodae.hdb.readers.wamit_control import Control, Statics, beside, mesh_of, read_control
+from hydrodae.hdb.readers.source import SourceData, Water, without_hydrostatics
+from hydrodae.hdb.readers.text import LARGEST_COUNT, beside, lines_beside
+from hydrodae.hdb.readers.wamit_control import BESIDE, Control, Statics, mesh_of, read_control
 from hydrodae.hdb.readers.wamit_guesses import (
     asked_findings,
-    at_infinity,
     first_column,
     settled,
     told_depth,
 )
 from hydrodae.hdb.readers.wamit_listing import is_listing, read_listing
-from hydrodae.hdb.readers.wamit_tables import (
-    COLUMNS,
-    check_modes,
-    check_parts,
-    tabulate,
-    to_omega,
-    unit,
-)
 from hydrodae.support.arrays import Array, Complex
 
 SUFFIXES = (".1", ".2", ".3", ".3fk", ".3sc", ".hst", ".pot", ".cfg", ".mmx", ".out", ".frc")
 #: Files of each force, the better one first.
 FORCES = {"excitation": (".3", ".2"), "froude_krylov": (".3fk",), "diffraction": (".3sc",)}
+TABLES = (".1", ".3", ".2", ".3fk", ".3sc", ".hst")
 
 
 @dataclass(frozen=True)
@@ -150,21 +151,23 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
 
 def _read_run(stem: Path) -> Run:
     """Read all files of a run, each once."""
-    control = read_control(stem)
-    paths = {s: beside(stem, s) for s in (".1", ".out", ".2", ".3", ".3fk", ".3sc", ".hst")}
-    found = {s: path for s, path in paths.items() if path is not None}
-    files = {key: next((s for s in wanted if s in found), "") for key, wanted in FORCES.items()}
-    if ".1" in found:
-        radiation, force = read_rows(found[".1"], COLUMNS[".1"]), None
+    texts = lines_beside(stem, (*BESIDE, *TABLES))
+    control = read_control(stem, texts)
+    files = {key: next((s for s in wanted if s in texts), "") for key, wanted in FORCES.items()}
+    force = None
+    if listed := ".1" not in texts:
+        radiation, force = read_listing(*texts[".out"])  # one of both makes a stem
     else:
-        radiation, force = read_listing(found[".out"])  # one of both makes a stem
+        path, lines = texts[".1"]
+        radiation = read_rows(path, COLUMNS[".1"], lines)
     forces = {} if force is None else {"excitation": force}
     for key, suffix in files.items():
         if suffix and key not in forces:
-            forces[key] = read_rows(found[suffix], COLUMNS[suffix])
-    hst = found.get(".hst")
-    stiffness = None if hst is None else read_rows(hst, COLUMNS[".hst"])
-    return Run(stem, control, radiation, forces, stiffness, ".1" not in found)
+            path, lines = texts[suffix]
+            forces[key] = read_rows(path, COLUMNS[suffix], lines)
+    hst = texts.get(".hst")
+    stiffness = None if hst is None else read_rows(hst[0], COLUMNS[".hst"], hst[1])
+    return Run(stem, control, radiation, forces, stiffness, listed)
 
 
 def _tables(run: Run, water: Water, findings: list[Finding]) -> tuple[SourceData, Motions]:
@@ -201,7 +204,7 @@ def _tables(run: Run, water: Water, findings: list[Finding]) -> tuple[SourceData
         text = f"{run.stem.name}.pot asks for {control.frequencies}, {name} holds {at.size}"
         findings.append(Finding("warning", "frequency grid", text))
     scale = unit(run.radiation.columns, setting, turns[:, None] + turns)
-    limit = at_infinity(at, a, b, findings)
+    limits = {w: scale * a[at == w][0] for w in (0.0, np.inf) if w in at}
     names = motions.names
     data = SourceData(
         coordinates=motions.coordinates,
@@ -215,10 +218,11 @@ def _tables(run: Run, water: Water, findings: list[Finding]) -> tuple[SourceData
         water_depth=setting.depth,
         name=name,
         title=f"WAMIT {run.stem.name}",
-        added_mass_inf=None if limit is None else scale * limit,
+        added_mass_inf=limits.get(np.inf),
+        added_mass_zero=limits.get(0.0),
         files=run.files,
         findings=findings,
-        scales=Scales(six_of_each(names), setting.length, option),
+        setting=replace(setting, labels=six_of_each(names)),
         froude_krylov=forces.get("froude_krylov"),
         diffraction=forces.get("diffraction"),
         excitation=forces.get("excitation"),
@@ -267,15 +271,11 @@ def _listed(modes: Array) -> str:
     return ", ".join(f"{m:g}" for m in modes)
 
 
-def _of_modes(rows: Rows, modes: Array) -> Rows:
-    return rows.where(np.asarray(np.isin(rows.modes, modes).all(axis=1)))
-
-
 def _radiation(
     run: Run, motions: Motions, setting: Setting, findings: list[Finding]
 ) -> tuple[Array, Array, Array]:
     """Frequencies, 0 and inf among them, and dimensionless A, B (nw, n, n) of the modes kept."""
-    modes, rows = motions.kept, _of_modes(run.radiation, motions.kept)
+    modes, rows = motions.kept, run.radiation.of_modes(motions.kept)
     omega = to_omega(rows.waves[:, 0], setting)
     added, damping = rows.values.T
     at, usual = np.unique(omega), np.isfinite(omega) & (omega > 0.0)
@@ -314,7 +314,7 @@ def _forces(
         findings.append(Finding("info", "excitation", text))
     if rows.path.suffix.lower() != ".out":
         check_parts(rows, findings)
-    rows = _of_modes(rows, motions.kept)
+    rows = rows.of_modes(motions.kept)
     at = to_omega(rows.waves[:, 0], setting)
     usual = np.isfinite(at) & (at > 0.0)
     rows, at = rows.where(usual), at[usual]
@@ -331,7 +331,7 @@ def _forces(
 def _attach_hydrostatics(data: SourceData, run: Run, motions: Motions) -> None:
     """Waterplane from `.hst` or the listing, or from meshes; stiffness of generalised modes."""
     control, names, rows = run.control, motions.names, run.stiffness
-    length = data.scales.length
+    length = data.setting.length
     table: Array | None = None
     if rows is not None:
         data.files.append(rows.path)
@@ -382,19 +382,16 @@ def _attach_waterplane(data: SourceData, name: str, statics: Statics, block: Arr
     if block is None or point is None or volume is None or buoyancy is None or gravity is None:
         return False
     turns = np.arange(6) >= 3
-    block = block * data.scales.length ** (2.0 + turns[:, None] + turns)
+    block = block * data.setting.length ** (2.0 + turns[:, None] + turns)
     mass = volume if statics.mass_over_rho is None else statics.mass_over_rho
     block[[3, 4], [3, 4]] += mass * gravity[2]
-    waterplane = Hydrostatics.from_stiffness(
-        data.rho * data.gravity * block, point, volume, point + buoyancy, data.rho, data.gravity
-    )
-    data.hydrostatics[name] = (waterplane, point)
+    data.add_statics(name, data.rho * data.gravity * block, point, volume, point + buoyancy)
     return True
 
 
 def _stiffness(rows: Rows, modes: Array, every: Array) -> Array:
     """C/(rho g) of some modes, (n, n), from `.hst`."""
-    used = _of_modes(rows, modes)
+    used = rows.of_modes(modes)
     if used.lines.size < modes.size**2:  # a garbled index leaves a gap; tables may hold more modes
         check_modes(rows, np.union1d(modes, every))
     keys, axes = (np.zeros(used.lines.size), *used.modes.T), (np.zeros(1), modes, modes)

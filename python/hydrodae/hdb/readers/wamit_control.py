@@ -9,14 +9,25 @@ OpenFAST's HydroDyn shows what it takes them for.
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path, PureWindowsPath
 
 import numpy as np
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.readers.text import NUMBER, leading, number, read_lines, read_text
-from hydrodae.hdb.readers.wamit_tables import FIRST
+from hydrodae.hdb.readers.hydrodyn import input_of
+from hydrodae.hdb.readers.rows import FIRST
+from hydrodae.hdb.readers.text import (
+    NUMBER,
+    beside,
+    leading,
+    lines_beside,
+    named,
+    number,
+    read_lines,
+    read_text,
+)
 from hydrodae.support.arrays import Array
 from hydrodae.support.naming import names_file
 
@@ -26,9 +37,9 @@ LEAST_DENSITY = 100.0
 #: HAMS: 1, 2 wavenumber in deep and finite depth, 3 frequency, 4 period (5 wavelength).
 HAMS = {"1": 3, "2": 4, "3": 2, "4": 1}
 WAVELENGTH = 5
-#: An input of HydroDyn stands in one of so many folders, from that of the tables up [-], and has at
-#: most so many bytes.
-FOLDERS, LARGEST_INPUT = 3, 1_000_000
+#: Suffixes of the text files of a run, and what they hold: path and lines.
+BESIDE = (".cfg", ".pot", ".mmx", ".out", ".frc")
+Texts = Mapping[str, tuple[Path, list[str]]]
 
 
 @dataclass(frozen=True)
@@ -99,8 +110,10 @@ class Control:
         return np.cumsum([0, *counts], dtype=float)
 
 
-def read_control(stem: Path) -> Control:
-    """Read what is there of `<stem>.pot`, `.cfg`, `.mmx`, `.out`, and the `.gdf` files they name.
+def read_control(stem: Path, texts: Texts | None = None) -> Control:
+    """Read what is there of `BESIDE`, and the `.gdf` files they name.
+
+    `texts` are the files `BESIDE` with their lines, where they have been read.
 
     Raises
     ------
@@ -108,15 +121,15 @@ def read_control(stem: Path) -> Control:
         A file is wrong; the message names file and line.
     """
     control = Control()
+    texts = lines_beside(stem, BESIDE) if texts is None else texts
     for suffix, reader in ((".cfg", _cfg), (".pot", _pot), (".mmx", _listing), (".out", _listing)):
-        if (path := beside(stem, suffix)) is not None:
-            reader(path, control)
-            control.files.append(path)
-    frc, listing = beside(stem, ".frc"), beside(stem, ".mmx")
-    if frc is not None and listing is not None:
-        _frc(frc, listing, control)
-    hams = hams_file(stem, "ControlFile.in")
-    if hams is not None and control.depth is None:
+        if suffix in texts:
+            reader(*texts[suffix], control)
+            control.files.append(texts[suffix][0])
+    if ".frc" in texts and ".mmx" in texts:
+        _frc(*texts[".frc"], texts[".mmx"][1], control)
+    hams = hams_file(stem, "ControlFile.in") if control.depth is None else None
+    if hams is not None:
         _hams(hams, control)
         control.files.append(hams)
     if control.depth is None:
@@ -127,18 +140,6 @@ def read_control(stem: Path) -> Control:
             _gdf(mesh, control)
             control.files.append(mesh)
     return control
-
-
-def beside(stem: Path, suffix: str) -> Path | None:
-    """Return the file `<stem><suffix>` whatever the case of its name, or None."""
-    return named(stem.parent, stem.name + suffix)
-
-
-def named(folder: Path | None, name: str) -> Path | None:
-    """Return what is called `name` in a folder, whatever the case, or None."""
-    if folder is None or not folder.is_dir():
-        return None
-    return next((p for p in sorted(folder.iterdir()) if p.name.lower() == name.lower()), None)
 
 
 def hams_file(stem: Path, name: str) -> Path | None:
@@ -182,10 +183,10 @@ def _steps(count: int, numbers: list[float]) -> Array:
 
 
 @names_file
-def _cfg(path: Path, control: Control) -> None:
+def _cfg(path: Path, lines: list[str], control: Control) -> None:
     """Read a configuration file: what the periods are (0 is 1), and the numbers of new modes."""
     found = {"IPEROUT": 1, "IPERIN": 1}
-    for count, line in enumerate(read_lines(path), start=1):
+    for count, line in enumerate(lines, start=1):
         if stated := re.match(r"\s*(IPEROUT|IPERIN)\s*=\s*(\d+)", line, re.IGNORECASE):
             key, option = stated[1].upper(), int(stated[2]) or 1
             if option not in FIRST:
@@ -199,11 +200,11 @@ def _cfg(path: Path, control: Control) -> None:
 
 
 @names_file
-def _pot(path: Path, control: Control) -> None:
+def _pot(path: Path, lines: list[str], control: Control) -> None:
     """Read a potential control file: form 2 (with NBODY), or form 1 (one body)."""
-    lines = read_lines(path)
-    # the first line is a title
-    values = [[], *(leading(line, n) for n, line in enumerate(lines[1:], start=2))]
+    values: list[list[float]] = [[]]  # of the title
+    for n, line in enumerate(lines[1:], start=2):
+        values.append(leading(line, n))
 
     def expect(row: int, count: int, what: str) -> list[float]:
         if row >= len(lines) or len(values[row]) < count:
@@ -254,11 +255,11 @@ def _point(row: int, xbody: list[float]) -> Array:
 
 
 @names_file
-def _listing(path: Path, control: Control) -> None:
+def _listing(path: Path, lines: list[str], control: Control) -> None:
     """Read `.mmx` or `.out`; bodies are counted by their lines of volumes."""
     seen, known = 0, bool(control.points)
     suffix = path.suffix.lower()
-    for count, line in enumerate(read_lines(path), start=1):
+    for count, line in enumerate(lines, start=1):
         _water(line, control)
         place = re.search(rf"XBODY =\s*({NUMBER})\s+YBODY =\s*({NUMBER})\s+ZBODY =", line)
         if place and not known:
@@ -317,10 +318,9 @@ def _stiffness_row(control: Control, body: int, row: int, values: list[float]) -
 
 
 @names_file
-def _frc(path: Path, listing: Path, control: Control) -> None:
+def _frc(path: Path, lines: list[str], listing: list[str], control: Control) -> None:
     """Density of alternative form 2: the third line is one number, followed by centres."""
-    form = re.search(r"IALTFRC\s*=\s*(\d)", read_text(listing))
-    lines = read_lines(path)
+    form = re.search(r"IALTFRC\s*=\s*(\d)", "\n".join(listing))
     if form and form[1] != "1" and len(lines) > 2:
         found = leading(lines[2], 3)
         if found and found[0] > LEAST_DENSITY:
@@ -382,44 +382,17 @@ def _asked_of_hams(path: Path, text: str) -> Asked | None:
 
 
 def _hydrodyn(stem: Path, control: Control) -> None:
-    """Water, length and reference point of the input of HydroDyn whose `PotFile` are these tables.
+    """Water, length and reference point of the input of HydroDyn that uses these tables.
 
-    It stands in their folder or above; several that differ say nothing. Lines are `value KEY - what
-    it means`; DEFAULT stands where another input says it. Moments are about the origin.
+    Moments are about the origin. The depth is what the program takes the tables for.
     """
-    for folder in (stem.parent, *stem.parent.parents[: FOLDERS - 1]):
-        found = {p: h for p in sorted(folder.glob("*.dat")) if (h := _potfile(p, stem)) is not None}
-        if found:
-            break
-    if len(set(found.values())) != 1:
+    found = input_of(stem)
+    if found is None:
         return
-    control.files.append(next(iter(found)))
-    rho, control.likely_depth, length = next(iter(found.values()))
-    control.rho = rho if control.rho is None else control.rho
-    control.length = length if control.length is None else control.length
+    path, read = found
+    control.files.append(path)
+    control.likely_depth = None if read.depth is None else _deep(read.depth)
+    control.rho = read.rho if control.rho is None else control.rho
+    control.length = read.length if control.length is None else control.length
     if not control.points:
         control.points.append(np.zeros(3))
-
-
-def _potfile(path: Path, stem: Path) -> tuple[float | None, ...] | None:
-    """Density, depth and length of an input of HydroDyn that names one body, these tables."""
-    if not path.is_file() or path.stat().st_size > LARGEST_INPUT:
-        return None
-    text = read_text(path)
-    line = re.search(r"^(.*?)\s+PotFile\b", text, re.MULTILINE)
-    if line is None:
-        return None
-    files = re.findall(r'"([^"]*)"', line[1]) or [line[1].strip()]
-    target = PureWindowsPath(files[0])
-    above = target.parent.name.lower()
-    if len(files) != 1 or target.name.lower() != stem.name.lower():
-        return None
-    if above not in ("", stem.parent.name.lower()):
-        return None
-
-    def value(key: str) -> float | None:
-        found = re.search(rf"^\s*({NUMBER})\s+{key}\b", text, re.MULTILINE | re.IGNORECASE)
-        return None if found is None else number(found[1])
-
-    depth = value("WtrDpth")
-    return value("WtrDens"), None if depth is None else _deep(depth), value("WAMITULEN")

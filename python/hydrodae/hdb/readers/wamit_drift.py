@@ -7,6 +7,7 @@ A_1 conj(A_2). Loads are F/(rho g L), moments F/(rho g L^2), over the two amplit
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -16,12 +17,12 @@ from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.second_order import OF_ALL_BODIES
 from hydrodae.hdb.labels import read_labels
 from hydrodae.hdb.readers.quadratic import Entries
+from hydrodae.hdb.readers.rows import COLUMNS, Rows, check_parts, read_rows, to_omega, unit
 from hydrodae.hdb.readers.setting import Setting
-from hydrodae.hdb.readers.text import Rows, read_rows
+from hydrodae.hdb.readers.text import beside
 from hydrodae.hdb.readers.wamit import wamit_stem
-from hydrodae.hdb.readers.wamit_control import beside, read_control
+from hydrodae.hdb.readers.wamit_control import read_control
 from hydrodae.hdb.readers.wamit_listing import is_listing, read_drift
-from hydrodae.hdb.readers.wamit_tables import COLUMNS, check_parts, to_omega, unit
 
 #: Kind and method of each file, the better ones first: pressures need finer meshes than the far
 #: field or a control surface, and `.10` lacks the potential of second order.
@@ -36,6 +37,7 @@ SUFFIXES = {
     ".11s": ("sum", "indirect"),
     ".10s": ("sum", "quadratic part"),
 }
+NAMES = re.compile(r"\.(7|8|9|1[012][ds])$", re.IGNORECASE)
 
 
 def find(source: Path) -> list[Path]:
@@ -91,7 +93,7 @@ def _entries(
             f"no line with a mode and frequencies > 0; expected {rows.columns.meaning}"
         ).about("missing", "numbers", file=path)
     check_parts(rows, findings)
-    labels = setting.labels_of(rows)
+    labels = rows.labels(setting)
     turns = np.array([label.is_rotation for label in read_labels(labels)])
     return Entries(
         path,

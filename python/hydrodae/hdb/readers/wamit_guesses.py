@@ -6,17 +6,14 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.labels import DOFS
+from hydrodae.hdb.readers.rows import FIRST, Rows, to_omega
 from hydrodae.hdb.readers.setting import Setting
 from hydrodae.hdb.readers.source import LARGEST, SEA_WATER, USUAL_GRAVITY, SourceData, Water
-from hydrodae.hdb.readers.text import Rows
 from hydrodae.hdb.readers.wamit_control import WAVELENGTH, Asked, Control
-from hydrodae.hdb.readers.wamit_tables import FIRST, to_omega
-from hydrodae.hdb.relations import infinity
 from hydrodae.hdb.relations.causality import causal_line
 from hydrodae.hdb.relations.depth import depth_of_bodies
 from hydrodae.hdb.relations.dispersion import frequency, group_velocity, wavenumber
@@ -137,17 +134,6 @@ def first_column(
     (`hydrodae.hdb.relations.causality`) by one of the four meanings only. Where the tables are too
     short for that, or end before B falls, damping and force of heave decide, which Haskind's
     relation joins at every frequency. Else the tables hold periods, the default of WAMIT.
-
-    Parameters
-    ----------
-    name : str
-        Of the run.
-    radiation, force : Rows
-        Lines of A and B, and of the exciting forces, or None.
-    setting : Setting
-        Length scale and water.
-    findings : list of Finding
-        Reported there.
     """
     options = [replace(setting, first_column=option) for option in FIRST]
     fits = [_fit(radiation, option) for option in options]
@@ -288,56 +274,3 @@ def _within(omega: Array, grid: Array) -> bool:
     step = np.gradient(grid)[at] if grid.size > 1 else np.full(at.size, np.inf)
     near = np.abs(omega - grid[at]) < np.minimum(SAME * omega, QUARTER * step)
     return bool(np.mean(near) > MOST)
-
-
-def at_infinity(omega: Array, a: Array, b: Array, findings: list[Finding]) -> Array | None:
-    """Return A at w = inf of the tables; A(0) and A(inf) that were exchanged are put right.
-
-    Capytaine before 3.0 wrote the two rows of `.1` the other way round. A at the lowest frequency
-    is close to A(0), and Ogilvie's relation gives A(inf): that settles it.
-
-    Parameters
-    ----------
-    omega : (nw,) array
-        With 0 and inf where the file has them.
-    a, b : (nw, n, n) arrays
-        A/(rho L^k), B/(rho w L^k).
-    findings : list of Finding
-        Reported there.
-    """
-    zero, high = a[omega == 0.0], a[np.isinf(omega)]
-    usual = np.isfinite(omega) & (omega > 0.0)
-    for table in (a, b):  # rows with NaN or overflows are dropped later, and reported
-        usual &= (np.abs(table) < LARGEST).all(axis=(1, 2))
-    limit = np.asarray(high[0]) if len(high) else None
-    if usual.sum() < 8 or not (len(zero) or len(high)):
-        return limit
-    w = omega[usual]
-    diagonal = np.einsum("wii->wi", a[usual])
-    damping = w[:, None] * np.einsum("wii->wi", b[usual])
-    estimate, doubt = infinity.added_mass_inf(w, diagonal, damping)
-    # only coordinates whose two limits are apart can decide
-    tells = np.abs(diagonal[0] - estimate) > 3.0 * doubt + 0.1 * np.abs(diagonal[0])
-    if not tells.any():
-        return limit
-
-    room = (3.0 * doubt + 0.05 * np.abs(estimate))[tells]
-
-    def is_high(row: Array) -> NDArray[np.bool_]:
-        return np.asarray(np.abs(np.diag(row) - estimate)[tells] < room)
-
-    wrong_high = bool(len(high)) and not is_high(high[0]).any()
-    zero_is_high = bool(len(zero)) and bool(is_high(zero[0]).all())
-    if len(high) and len(zero):
-        exchanged = wrong_high and zero_is_high
-    elif len(zero):
-        exchanged = zero_is_high
-    else:
-        exchanged = wrong_high and np.allclose(
-            np.diag(high[0])[tells], diagonal[0][tells], rtol=0.02
-        )
-    if not exchanged:
-        return limit
-    text = "the rows of w = 0 and w = inf are exchanged (Capytaine before 3.0 wrote them so)"
-    findings.append(Finding("warning", "added_mass_inf of the source", f"{text}; put right"))
-    return np.asarray(zero[0]) if len(zero) else None

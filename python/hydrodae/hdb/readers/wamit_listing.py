@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.readers.text import NUMBER, Columns, Rows, number, numbers, read_lines
-from hydrodae.hdb.readers.wamit_tables import COLUMNS
+from hydrodae.hdb.readers.rows import COLUMNS, Columns, Rows
+from hydrodae.hdb.readers.text import NUMBER, number, numbers, read_lines
 from hydrodae.support.naming import names_file
 
 #: Of the list of periods that POTEN has solved, with the time of day.
@@ -43,7 +43,7 @@ def is_listing(path: Path) -> bool:
 
 
 @names_file
-def read_listing(path: Path) -> tuple[Rows, Rows | None]:
+def read_listing(path: Path, lines: list[str]) -> tuple[Rows, Rows | None]:
     """Read the tables of added mass and damping, and of exciting forces (None without).
 
     Returns
@@ -60,7 +60,7 @@ def read_listing(path: Path) -> tuple[Rows, Rows | None]:
     found: dict[str, list[list[float]]] = {title: [] for title in (_RADIATION, *_FORCES)}
     period, heading, table = np.nan, np.nan, ""
     solved, told = set[str](), set[str]()
-    for count, line in enumerate(read_lines(path), start=1):
+    for count, line in enumerate(lines, start=1):
         if stated := _PERIOD.search(line):
             word = stated[1].lower()
             told.add(word)

@@ -26,6 +26,18 @@ def wavenumber(omega: ArrayLike, depth: float, gravity: float) -> Array:
     return x / depth
 
 
+def phase_at(
+    point: ArrayLike, omega: ArrayLike, heading: ArrayLike, depth: float, gravity: float
+) -> Array:
+    """Phase k (x cos beta + y sin beta) [rad] of waves at points (..., 2 or more) [m].
+
+    Frequencies [rad/s], headings [rad] and points are taken together as numpy broadcasts them.
+    """
+    place, beta = np.asarray(point), np.asarray(heading)
+    along = place[..., 0] * np.cos(beta) + place[..., 1] * np.sin(beta)
+    return np.asarray(wavenumber(omega, depth, gravity) * along)
+
+
 def frequency(wavenumbers: ArrayLike, depth: float, gravity: float) -> Array:
     """Frequency [rad/s] of waves of the given wavenumbers [rad/m]."""
     k = np.asarray(wavenumbers, dtype=float)
