@@ -9,6 +9,7 @@ from tests.attack import truth
 from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.parts import GRAVITY, body, case, joint, position
 from tests.stability import Scene, truths
+from tests.stability.truths import cross
 
 KIND = "long runs"
 
@@ -110,8 +111,8 @@ def tumbling(inertia: Any, rates: Any) -> Any:
             w * b + z * a - x * c,
             w * c + x * b - yy * a,
         ]
-        spin = -np.cross(y[4:], inertia * y[4:]) / inertia
-        return np.r_[0.5 * np.array(change), spin]
+        spin = -cross(y[4:], inertia * y[4:]) / inertia
+        return np.concatenate([0.5 * np.array(change), spin])
 
     return turning, np.r_[1.0, 0.0, 0.0, 0.0, np.asarray(rates, dtype=float)]
 
@@ -182,8 +183,8 @@ def sleeping_top(excess: float, tilt: float, end: float) -> Scene:
 
     def rates(_t: float, y: Any) -> Any:  # axis u and momentum L of a symmetric top
         u, momentum = y[:3], y[3:]
-        load = np.cross(arm * u, [0.0, 0.0, -mass * GRAVITY])
-        return np.r_[np.cross(momentum, u) / about, load]
+        load = cross(arm * u, [0.0, 0.0, -mass * GRAVITY])
+        return np.concatenate([cross(momentum, u) / about, load])
 
     begin = arm * up
     solved = truth.integrated(

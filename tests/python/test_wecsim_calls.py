@@ -6,13 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.python.wecsim_files import (  # noqa: F401
-    append,
-    cylinders,
-    left_out,
-    tables,
-    two_bodies,
-)
+from tests.python.wecsim_files import append, left_out, tables
 
 from hydrodae.errors import CaseError
 from hydrodae.wecsim import convert

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -148,6 +149,7 @@ SNAP_N, SNAP_L, SNAP_M, SNAP_EA, SNAP_C = 12, 9.0, 20.0, 2e5, 900.0
 SNAP_A, SNAP_T = 0.3, 0.8
 
 
+@cache
 def snap(damped_slack: bool) -> np.ndarray:
     """Tension at the moving end of a straight line that slackens and snaps, by steps of RK4 [N].
 
