@@ -58,8 +58,11 @@ def slack_pair(
         x, z = pull(1.0 + bx - ax, bz - az, vbx - vax, vbz - vaz)
         x2, z2 = pull(1.0 - bx, -bz, -vbx, -vbz)
         return np.array(
-            [vax, vaz, vbx, vbz, x - ax - 0.01 * vax, z - 1.9 * az - 0.01 * vaz]
-            + [(x2 - x) / light, (z2 - z) / light]
+            [
+                *(vax, vaz, vbx, vbz),
+                *(x - ax - 0.01 * vax, z - 1.9 * az - 0.01 * vaz),
+                *((x2 - x) / light, (z2 - z) / light),
+            ]
         )
 
     solved = truth.integrated(

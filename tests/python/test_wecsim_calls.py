@@ -91,7 +91,7 @@ def test_a_function_that_is_not_understood_has_no_value(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("option", [0, 1])
 def test_a_body_with_several_databases_starts_with_that_of_its_index(
-    two_bodies: Path,  # noqa: F811
+    two_bodies: Path,
     tmp_path: Path,
     option: int,
 ) -> None:
