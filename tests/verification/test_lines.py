@@ -156,7 +156,7 @@ def snap(damped_slack: bool) -> np.ndarray:
     T = EA max(0, strain) + C strain', as in MoorDyn, or without C where it is slack.
     """
     n, step = SNAP_N, SNAP_L / SNAP_N
-    w, mass, h = 2.0 * math.pi / SNAP_T, SNAP_M * SNAP_L / SNAP_N, 2e-5
+    w, mass, h = 2.0 * math.pi / SNAP_T, SNAP_M * SNAP_L / SNAP_N, 5e-5
 
     def pulls(t: float, x: np.ndarray, v: np.ndarray) -> np.ndarray:
         ends = SNAP_A * math.sin(w * t), SNAP_A * w * math.cos(w * t)
@@ -169,7 +169,7 @@ def snap(damped_slack: bool) -> np.ndarray:
     out = []
     for k in range(round(2.0 / h) + 1):
         t = k * h
-        if k % 250 == 0:
+        if k % 100 == 0:
             out.append(pulls(t, x, v)[-1])
         a = np.diff(pulls(t, x, v)) / mass
         b = np.diff(pulls(t + 0.5 * h, x + 0.5 * h * v, v + 0.5 * h * a)) / mass
