@@ -91,8 +91,13 @@ def test_a_child_for_each_of_a_few_channels_and_one_for_all_others(
     """Of a file of another process, which has names of components beside its channels."""
     (tmp_path / "case.toml").write_text(springs(12, 0.2, 0.1))
     run = hydrodae.run(tmp_path / "case.toml", tmp_path / "r.h5")
-    children: list[int] = []
-    monkeypatch.setattr(damaged, "in_child", lambda work: children.append(1) or in_child(work))
+    children: list[object] = []
+
+    def counted(work: Callable[[], object]) -> object:
+        children.append(work)
+        return in_child(work)
+
+    monkeypatch.setattr(damaged, "in_child", counted)
     results = Results.read(run.path)
     for name in results:
         np.testing.assert_array_equal(results[name], run[name])
