@@ -9,6 +9,7 @@ from tests.attack import truth
 from tests.attack.family import chosen, family, log_uniform, unnamed
 from tests.attack.parts import GRAVITY, body, case, joint, position
 from tests.stability import Scene, truths
+from tests.stability.truths import cross
 
 KIND = "long runs"
 
@@ -110,8 +111,8 @@ def tumbling(inertia: Any, rates: Any) -> Any:
             w * b + z * a - x * c,
             w * c + x * b - yy * a,
         ]
-        spin = -np.cross(y[4:], inertia * y[4:]) / inertia
-        return np.r_[0.5 * np.array(change), spin]
+        spin = -cross(y[4:], inertia * y[4:]) / inertia
+        return np.concatenate([0.5 * np.array(change), spin])
 
     return turning, np.r_[1.0, 0.0, 0.0, 0.0, np.asarray(rates, dtype=float)]
 
@@ -171,19 +172,19 @@ def _draw_top(g: np.random.Generator) -> dict[str, Any]:
 @chosen(excess=1.5, tilt=0.1, end=20.0, kind="ship")
 def sleeping_top(excess: float, tilt: float, end: float) -> Scene:
     """An upright top, `excess` times as fast as it must be to sleep, leaning by `tilt` [rad]."""
-    mass, arm, axial, cross = 1.0, 0.1, 0.002, 0.004
-    about = cross + mass * arm**2
+    mass, arm, axial, sideways = 1.0, 0.1, 0.002, 0.004
+    about = sideways + mass * arm**2
     fastest = 2.0 * np.sqrt(about * mass * GRAVITY * arm) / axial
     spin = excess * fastest
     up = np.array([np.sin(tilt), 0.0, np.cos(tilt)])
     # body axes turned by the tilt about y in the reference pose: principal axes as given
     pose = [0.0, float(np.degrees(tilt)), 0.0]
-    inertia = [cross, cross, axial]
+    inertia = [sideways, sideways, axial]
 
     def rates(_t: float, y: Any) -> Any:  # axis u and momentum L of a symmetric top
         u, momentum = y[:3], y[3:]
-        load = np.cross(arm * u, [0.0, 0.0, -mass * GRAVITY])
-        return np.r_[np.cross(momentum, u) / about, load]
+        load = cross(arm * u, [0.0, 0.0, -mass * GRAVITY])
+        return np.concatenate([cross(momentum, u) / about, load])
 
     begin = arm * up
     solved = truth.integrated(

@@ -11,6 +11,7 @@ from tests.attack.long import turned
 from tests.attack.parts import Z, body, case, joint, position
 from tests.attack.slide import LARGE, SMALL, UNIT, Scale, block, drawn, placed, spring
 from tests.stability import Scene
+from tests.stability.truths import cross
 
 KIND = "power take-offs"
 Three = tuple[float, float, float]
@@ -152,7 +153,7 @@ def rotary_pto(inertia: float, rate: float, spin: list[float], end: float) -> Sc
                 q * w[2] + x * w[1] - yy * w[0],
             ]
         )
-        return np.r_[change, (moment - np.cross(w, moments * w)) / moments]
+        return np.concatenate([change, (moment - cross(w, moments * w)) / moments])
 
     solved = truth.integrated(
         rates=rates,

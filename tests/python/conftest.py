@@ -213,6 +213,12 @@ def sphere_tables(repository: Path) -> Any:
 
 
 @pytest.fixture(scope="session")
+def sphere(sphere_tables: Any) -> Any:
+    """The same, by the name of the body; a file may have a sphere of its own."""
+    return sphere_tables
+
+
+@pytest.fixture(scope="session")
 def sphere_file(sphere_tables: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The same as a netCDF file of Capytaine."""
     from hydrodae.hdb.database import writers

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 from tests.errors import refused
 from tests.python.conftest import write_results
+from tests.python.output_runs import springs
 
 import hydrodae
 from hydrodae import hdb
@@ -22,6 +23,8 @@ from hydrodae.errors import DatabaseError, HydrodaeError
 from hydrodae.hdb.database import writers
 from hydrodae.records.table import read_table
 from hydrodae.results import Results, ResultsError
+from hydrodae.support import damaged
+from hydrodae.support.child import in_child
 
 PAIR = np.zeros(50, dtype=[("r", "f8"), ("i", "i4")])
 
@@ -80,6 +83,25 @@ def test_a_damaged_channel_is_refused_and_the_others_are_read(data: Any, tmp_pat
     with pytest.raises(ResultsError, match="channel joints/hinge1/angle"):
         results["joints/hinge1/angle"]
     assert results["joints/hinge2/angle"].shape == (50,)
+
+
+def test_a_child_for_each_of_a_few_channels_and_one_for_all_others(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of a file of another process, which has names of components beside its channels."""
+    (tmp_path / "case.toml").write_text(springs(12, 0.2, 0.1))
+    run = hydrodae.run(tmp_path / "case.toml", tmp_path / "r.h5")
+    children: list[object] = []
+
+    def counted(work: Callable[[], object]) -> object:
+        children.append(work)
+        return in_child(work)
+
+    monkeypatch.setattr(damaged, "in_child", counted)
+    results = Results.read(run.path)
+    for name in results:
+        np.testing.assert_array_equal(results[name], run[name])
+    assert len(children) <= 10 < len(results)
 
 
 def test_a_summary_does_without_units_and_counts(tmp_path: Path) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,12 +10,6 @@ import pytest
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
-
-
-@pytest.fixture(scope="module")
-def sphere(repository: Path) -> HydroDatabase:
-    database = hdb.read(repository / "cases" / "sphere" / "hydro.h5")
-    return replace(database, kernel=None, memory={})
 
 
 def noisy(db: HydroDatabase, level: float) -> HydroDatabase:

@@ -13,11 +13,6 @@ from hydrodae.hdb.checks.ground import standing
 from hydrodae.hdb.checks.longwave import long_wave_findings
 
 
-@pytest.fixture(scope="module")
-def sphere(sphere_tables):
-    return sphere_tables
-
-
 def test_waves_much_shorter_than_the_body_are_not_felt(sphere):
     low, high = felt_band(sphere)
     assert low == pytest.approx(LONGEST)

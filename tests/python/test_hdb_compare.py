@@ -12,11 +12,6 @@ from tests.python.hdb_command import call
 from hydrodae.hdb.checks.compare import compare, grid_sensitivity, other_water
 
 
-@pytest.fixture(scope="module")
-def sphere(sphere_tables):
-    return sphere_tables
-
-
 def test_a_database_equals_itself(sphere):
     assert max(d.value for d in compare(sphere, sphere)) < 1e-12
 

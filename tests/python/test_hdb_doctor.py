@@ -20,11 +20,6 @@ from hydrodae.hdb.relations.dispersion import group_velocity
 
 
 @pytest.fixture(scope="module")
-def sphere(sphere_tables):
-    return sphere_tables
-
-
-@pytest.fixture(scope="module")
 def nemoh(reference):
     return hdb.read(reference / "hdb" / "sphere_nemoh_v2.3")
 

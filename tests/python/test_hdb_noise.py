@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,12 +16,6 @@ from hydrodae.hdb.relations.noise import last_digit, scatter
 from hydrodae.support.arrays import Array
 
 SEVERITY = {"info": 0, "warning": 1, "error": 2}
-
-
-@pytest.fixture(scope="module")
-def sphere(repository: Path) -> HydroDatabase:
-    database = hdb.read(repository / "cases" / "sphere" / "hydro.h5")
-    return replace(database, kernel=None, memory={})
 
 
 def longer(db: HydroDatabase) -> HydroDatabase:

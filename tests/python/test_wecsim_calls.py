@@ -6,13 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.python.wecsim_files import (  # noqa: F401
-    append,
-    cylinders,
-    left_out,
-    tables,
-    two_bodies,
-)
+from tests.python.wecsim_files import append, left_out, tables
 
 from hydrodae.errors import CaseError
 from hydrodae.wecsim import convert
@@ -97,7 +91,7 @@ def test_a_function_that_is_not_understood_has_no_value(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("option", [0, 1])
 def test_a_body_with_several_databases_starts_with_that_of_its_index(
-    two_bodies: Path,  # noqa: F811
+    two_bodies: Path,
     tmp_path: Path,
     option: int,
 ) -> None:

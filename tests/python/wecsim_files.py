@@ -62,7 +62,7 @@ def write_database(folder: Path, kind: str) -> hdb.HydroDatabase:
     return database
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def cylinders(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Two cylinders of radius 5 m and draught 4 m as BEMIO writes them."""
     water = hdb.Water(omega=np.linspace(0.2, 2.6, 20), depth=50.0)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import subprocess
+import tempfile
 import zipfile
+from functools import cache
 from pathlib import Path
 
 NAMES = {
@@ -54,19 +56,15 @@ def description(fmi: int, *, states: bool = True, how: str = "CoSimulation") -> 
     return "\n".join([*lines, "</ModelStructure>", "</fmiModelDescription>"])
 
 
-def compiled(folder: Path, name: str, fmi: int) -> Path:
+@cache
+def compiled(name: str, fmi: int) -> bytes:
     """The shared library of NAME_fmu.c beside this file, for a version of FMI."""
-    path = folder / f"{name}{fmi}.so"
-    if not path.exists():
-        source = Path(__file__).parent / f"{name}_fmu.c"
-        options = ["-shared", "-fPIC", "-O1", "-fvisibility=hidden", f"-DFMI={fmi}"]
+    source = Path(__file__).parent / f"{name}_fmu.c"
+    options = ["-shared", "-fPIC", "-O1", "-fvisibility=hidden", f"-DFMI={fmi}"]
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "library.so"
         subprocess.run(["cc", *options, str(source), "-o", str(path), "-lm"], check=True)
-    return path
-
-
-def library(folder: Path, fmi: int) -> Path:
-    """The compiled controller."""
-    return compiled(folder, "pi", fmi)
+        return path.read_bytes()
 
 
 def with_units(xml: str, fmi: int, rate: str, load: str) -> str:
@@ -93,6 +91,6 @@ def write_fmu(path: Path, fmi: int, xml: str | None = None, binary: str | None =
     """The FMU; `xml` in place of its description, `binary` in place of its platform."""
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("modelDescription.xml", xml or description(fmi))
-        archive.write(library(path.parent, fmi), f"binaries/{binary or PLATFORMS[fmi]}/pi.so")
+        archive.writestr(f"binaries/{binary or PLATFORMS[fmi]}/pi.so", compiled("pi", fmi))
         archive.writestr("resources/notes.txt", "nothing")
     return path

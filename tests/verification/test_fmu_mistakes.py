@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from tests.verification.fmu_cart import FMU, cart
-from tests.verification.fmu_of_c import description, library, with_units, write_fmu
+from tests.verification.fmu_of_c import compiled, description, with_units, write_fmu
 
 import hydrodae
 from hydrodae import CaseError, Simulation, SolverError
@@ -63,7 +63,7 @@ def broken(folder: Path, how: str) -> None:
         with zipfile.ZipFile(path, "w") as archive:
             name = b'name="\xff\xfe'
             archive.writestr("modelDescription.xml", xml.encode().replace(b'name="rate', name))
-            archive.write(library(folder, 2), "binaries/linux64/pi.so")
+            archive.writestr("binaries/linux64/pi.so", compiled("pi", 2))
     elif how == "damaged":
         with zipfile.ZipFile(path, "w") as archive:
             archive.writestr("modelDescription.xml", xml)

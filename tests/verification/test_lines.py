@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -148,13 +149,14 @@ SNAP_N, SNAP_L, SNAP_M, SNAP_EA, SNAP_C = 12, 9.0, 20.0, 2e5, 900.0
 SNAP_A, SNAP_T = 0.3, 0.8
 
 
+@cache
 def snap(damped_slack: bool) -> np.ndarray:
     """Tension at the moving end of a straight line that slackens and snaps, by steps of RK4 [N].
 
     T = EA max(0, strain) + C strain', as in MoorDyn, or without C where it is slack.
     """
     n, step = SNAP_N, SNAP_L / SNAP_N
-    w, mass, h = 2.0 * math.pi / SNAP_T, SNAP_M * SNAP_L / SNAP_N, 2e-5
+    w, mass, h = 2.0 * math.pi / SNAP_T, SNAP_M * SNAP_L / SNAP_N, 5e-5
 
     def pulls(t: float, x: np.ndarray, v: np.ndarray) -> np.ndarray:
         ends = SNAP_A * math.sin(w * t), SNAP_A * w * math.cos(w * t)
@@ -167,7 +169,7 @@ def snap(damped_slack: bool) -> np.ndarray:
     out = []
     for k in range(round(2.0 / h) + 1):
         t = k * h
-        if k % 250 == 0:
+        if k % 100 == 0:
             out.append(pulls(t, x, v)[-1])
         a = np.diff(pulls(t, x, v)) / mass
         b = np.diff(pulls(t + 0.5 * h, x + 0.5 * h * v, v + 0.5 * h * a)) / mass

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from hydrodae.results.channel import COMPONENTS, Channel, MotionError, Samples
-from hydrodae.results.contents import ACCURACY, IMPACTS, Contents, reading
+from hydrodae.results.contents import ACCURACY, IMPACTS, LABELS, Contents, reading
 from hydrodae.results.files import ChannelError, ResultsError, find, identity
 
 if TYPE_CHECKING:
@@ -86,8 +86,9 @@ class Recording(Mapping[str, "xarray.DataArray"]):
         """Whether a child has read all samples, so that this process may read them itself."""
 
         def look(file: ResultsReader | Reader) -> None:
-            for name in file.datasets():
-                Samples(file, name.decode())
+            for name in (dataset.decode() for dataset in file.datasets()):
+                if name not in LABELS:  # texts
+                    Samples(file, name)
 
         try:
             reading(self.path, "damaged", look, own=False)

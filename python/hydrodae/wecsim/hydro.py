@@ -14,7 +14,7 @@ from hydrodae.hdb.checks.irregular import suspect_rows
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.preparation.fitting import fit, kernel
 from hydrodae.hdb.preparation.importing import import_database
-from hydrodae.hdb.readers.reading import read
+from hydrodae.hdb.readers.reading import body_names
 from hydrodae.wecsim.drift import with_drift
 from hydrodae.wecsim.m_file import calls
 from hydrodae.wecsim.objects import InputFile
@@ -142,7 +142,7 @@ def read_database(
     rho, gravity : float
         [kg/m3], [m/s2].
     """
-    old = list(read(source).bodies)
+    old = body_names(source)
     renaming: dict[str, str] = {}
     for number, name in names.items():
         if number > len(old) and not (len(names) == len(old) == 1):

@@ -10,6 +10,7 @@ import numpy as np
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.labels import bodies_of
 from hydrodae.hdb.readers.bemio import read_bemio
 from hydrodae.hdb.readers.capytaine import read_capytaine
 from hydrodae.hdb.readers.finishing import finish
@@ -181,3 +182,11 @@ def read(
     return finish(
         read_source(path, rho=rho, depth=depth, gravity=gravity, time_convention=time_convention)
     )
+
+
+def body_names(source: str | Path) -> list[str]:
+    """Return the names of the bodies of a source, in its order, without what `read` estimates."""
+    path, what = resolve(source)
+    if what == "hydro":
+        return list(HydroDatabase.read(path).bodies)
+    return list(bodies_of(read_source(path).coordinates))
