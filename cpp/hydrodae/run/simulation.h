@@ -2,20 +2,15 @@
 /// Run controlled by its caller: step by step, saved and restored, read and written by name.
 
 #include <functional>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "hydrodae/run/channels.h"
 #include "hydrodae/run/controllers.h"
-#include "hydrodae/run/events.h"
-#include "hydrodae/run/guards.h"
+#include "hydrodae/run/followers.h"
 #include "hydrodae/run/inputs.h"
-#include "hydrodae/run/method_at_work.h"
-#include "hydrodae/run/problem.h"
-#include "hydrodae/run/state.h"
-#include "hydrodae/run/step_bound.h"
+#include "hydrodae/run/stepper.h"
 
 namespace hydrodae::run {
 
@@ -39,9 +34,9 @@ public:
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  double time() const { return now_.t; }      ///< time of the last accepted step [s]
-  const VectorX& y() const { return now_.y; } ///< all unknowns at that time
-  bool finished() const { return now_.t >= problem_.options.end_time; }
+  double time() const { return steps_.now().t; }      ///< time of the last accepted step [s]
+  const VectorX& y() const { return steps_.now().y; } ///< all unknowns at that time
+  bool finished() const { return time() >= steps_.problem().options.end_time; }
 
   /// Function called after every accepted step, when `sample` may read times inside it.
   using Inside = std::function<void()>;
@@ -53,7 +48,7 @@ public:
   void advance(double limit = INFINITY, const Inside& inside = {});
 
   /// Last check of the guards at the end of the run. Throws SolverError.
-  void finish();
+  void finish() { steps_.finish(); }
 
   /// Informs controllers in other programs that the run ends, with the message of its error, if
   /// any.
@@ -73,7 +68,7 @@ public:
   void sample(double t, std::span<double> row);
 
   /// Writes the unknowns at a time inside the step, or now.
-  void look(double t, VectorX& y);
+  void look(double t, VectorX& y) { steps_.look(t, y); }
 
   /// Values of a channel now: one, three or four; one for a component, "velocity.z". Changes
   /// nothing. Throws CaseError with the nearest name for an unknown channel.
@@ -87,76 +82,48 @@ public:
   void write(const std::string& input, double value);
 
   // Properties of a run for its results file.
-  const model::Scene& scene() const { return problem_.scene; }
-  const system::System& system() const { return problem_.system; }
-  const system::Regime& regime() const { return problem_.regime; }
-  const std::vector<std::string>& notes() const { return problem_.notes; } ///< notes on the start
+  const model::Scene& scene() const { return steps_.problem().scene; }
+  const system::System& system() const { return steps_.problem().system; }
+  const system::Regime& regime() const { return steps_.problem().regime; }
+  /// Notes on the start
+  const std::vector<std::string>& notes() const { return steps_.problem().notes; }
   const observe::Recorder& recorder() const { return channels_.recorder(); }
-  const measure::Measure& measured() const { return measure_; }
+  const measure::Measure& measured() const { return steps_.measured(); }
   const ImpactOutput& impacts() const { return channels_.impacts(); }
-  const MethodChoice& methods() const { return method_.choice(); }
-  const events::Switching* switching() const { return events_.switching(); }
+  const MethodChoice& methods() const { return steps_.method().choice(); }
+  const events::Switching* switching() const { return steps_.events().switching(); }
   std::vector<Controllers::Cost> controller_costs() const { return controllers_.costs(); }
   /// Notes of controllers on units; complete once they were sampled.
   std::vector<std::string> unit_notes() const { return controllers_.unit_notes(); }
-  linalg::Statistics statistics() const { return method_.statistics(); }
-  double solver_time() const { return standing_.solver_time; } ///< wall time in the method [s]
-  long nonzeros() const { return problem_.pattern.nonzeros(); }
-  long events() const { return events_.count(); } ///< number of events after the start
+  linalg::Statistics statistics() const { return steps_.method().statistics(); }
+  double solver_time() const { return steps_.solver_time(); } ///< wall time in the method [s]
+  long nonzeros() const { return steps_.problem().pattern.nonzeros(); }
+  long events() const { return steps_.events().count(); } ///< number of events after the start
   /// Returns whether nothing has moved by more than rounding.
-  bool at_rest() const { return scale_.at_rest(); }
-  double relative_balance_error() const; ///< largest error so far, relative to `energy_scale` [-]
+  bool at_rest() const { return steps_.scale().at_rest(); }
+  /// Largest error so far, relative to `energy_scale` [-]
+  double relative_balance_error() const { return steps_.relative_balance_error(); }
   /// Energy exchanged so far, at least that of errors within the tolerance [J].
-  double energy_scale() const;
-  std::vector<std::string> scale_notes() const { return scale_.notes(); }
+  double energy_scale() const { return steps_.energy_scale(); }
+  std::vector<std::string> scale_notes() const { return steps_.scale().notes(); }
 
 private:
-  /// Data of a run outside its state: the state is taken between two steps.
-  struct Standing {
-    Instant before;           ///< start of the last step, to undo it
-    bool cut = false;         ///< true: the last step ends before that of the method
-    bool written = false;     ///< true: inputs have changed and the accelerations have not
-    bool failed = false;      ///< true: inside a step; only `restore` can continue
-    std::vector<double> row;  ///< row of the present instant; empty: not computed yet
-    double solver_time = 0.0; ///< [s]
-  };
-
   void require_going() const;
   void ask_controllers();
   void take_control();
   void take_inputs();
-  Step take_step(double end);
-  Step make_step(double end);
-  Step step(bool event, bool own);
-  double bound_of_step();
-  double next_kink();
-  void approach(double event);
-  bool begins_to_move();
-  void change_method(const MethodChange& change);
-  void measure_step();
-  bool has_samples() const;
-  void choose_quadrature();
-  void restart();
   void set(const State& state);
   std::span<const double> row_now();
   Channels::Counts counts() const;
-  integrate::Integrator& integrator() { return method_.integrator(); }
 
-  Problem problem_;
+  Stepper steps_;
   std::vector<Input> inputs_;
-  Instant now_; ///< end of the last step
-  Course course_;
-  Standing standing_;
-  StepBound bound_;
-  system::MotionScale scale_; ///< adapts the tolerances
-  RunEvents events_;
-  MethodAtWork method_;
-  measure::Measure measure_;
-  Guards guards_;
   Channels channels_;
   Controllers controllers_;
-  std::vector<std::unique_ptr<Follower>> parts_; ///< followers of parts in lower layers
-  std::vector<Follower*> followers_;             ///< all followers in calling order
+  ControlFollower control_;
+  bool written_ = false;    ///< true: inputs have changed and the accelerations have not
+  bool failed_ = false;     ///< true: inside a step; only `restore` can continue
+  std::vector<double> row_; ///< row of the present instant; empty: not computed yet
 };
 
 } // namespace hydrodae::run
