@@ -17,10 +17,11 @@ from numpy.typing import NDArray
 
 from hydrodae.hdb.checks.band import LEAST_DAMPING, Band, inside
 from hydrodae.hdb.checks.irregular import suspect_rows
+from hydrodae.hdb.checks.shapes import extent, gyration
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.scales import scales
-from hydrodae.hdb.relations.depth import depth_of_bodies
+from hydrodae.hdb.relations.depth import circle, depth_of_bodies
 from hydrodae.hdb.relations.dispersion import group_velocity, wavenumber
 from hydrodae.hdb.relations.entries import entry_scale
 from hydrodae.support.arrays import Array
@@ -70,10 +71,10 @@ def energy_identity(database: HydroDatabase) -> EnergyIdentity | None:
     factor = k / (8.0 * np.pi * db.rho * db.gravity * speed)
     square = np.abs(db.excitation) ** 2
     everything = np.arange(len(db.coordinates))
-    weight = _circle(db)
-    if weight is not None:
-        integral = np.einsum("whi,h->wi", square, weight)
-        valid = k * _extent(db) <= np.pi / _largest_step(db) - 3.0
+    weight, step, half = circle(db.heading) or (np.zeros(0), np.inf, False)
+    if step <= LARGEST_STEP and (not half or _symmetric_about_y(db)):
+        integral = 2.0 * np.pi * np.einsum("whi,h->wi", square, weight)
+        valid = k * _radius(db) <= np.pi / step - 3.0
         damping = factor[:, None] * integral
         return EnergyIdentity(everything, damping, valid, "sum over the headings")
     if not _axisymmetric(db):
@@ -182,55 +183,14 @@ def depth_findings(db: HydroDatabase) -> list[Finding]:
     return [Finding("warning", "water depth", text, omega=float(db.omega[0]))]
 
 
-def _circle(db: HydroDatabase) -> Array | None:
-    """Weights (nh,) [rad] of the integral over all directions; None if the headings leave gaps."""
-    # each direction once: a full turn closes headings that go all round
-    order = np.argsort(db.heading)
-    order = order[db.heading[order] - db.heading.min() < 2.0 * np.pi - 1e-6]
-    beta = db.heading[order]
-    steps = np.diff(np.r_[beta, beta[0] + 2.0 * np.pi])
-    if beta.size >= 4 and steps.max() <= LARGEST_STEP and steps.min() > 1e-6:
-        weight = np.zeros(db.heading.size)
-        weight[order] = 0.5 * (steps + np.roll(steps, 1))
-        return weight
-    half = np.sort(db.heading)
-    ends = np.isclose(half[[0, -1]], [0.0, np.pi], atol=1e-6)
-    if not ends.all() or np.diff(half).max() > LARGEST_STEP or not _symmetric_about_y(db):
-        return None
-    gaps = np.diff(half)
-    weight = np.empty(db.heading.size)
-    # both halves of the circle: the mirrored force has the same size
-    weight[np.argsort(db.heading)] = np.r_[gaps, 0.0] + np.r_[0.0, gaps]
-    return weight
-
-
-def _largest_step(db: HydroDatabase) -> float:
-    """Largest step [rad] between the headings, mirrored at y = 0 if they cover half the circle."""
-    beta = np.unique(np.mod(np.r_[db.heading, -db.heading], 2.0 * np.pi).round(9))
-    return float(np.diff(np.r_[beta, beta[0] + 2.0 * np.pi]).max())
-
-
-def _extent(db: HydroDatabase) -> float:
+def _radius(db: HydroDatabase) -> float:
     """Radius [m] around the middle of the bodies, by their places and radii of gyration of A_inf.
 
     |F(beta)|^2 has harmonics up to about 2 k R + 4, which the sum over n headings must resolve.
     """
-    points = np.array(
-        [
-            np.zeros(3) if b.reference_point is None else b.reference_point
-            for b in db.bodies.values()
-        ]
-    )
-    place = np.hypot(*(points - points.mean(axis=0))[:, :2].T).max()
-    mass = np.abs(np.diag(db.added_mass_inf))
-    radius = 0.0
-    for body in db.bodies:
-        mine = [(m, label) for m, label in zip(mass, db.labels, strict=True) if label.body == body]
-        turning = [m for m, label in mine if label.is_rotation]
-        going = [m for m, label in mine if label.is_translation]
-        if turning and going and max(going) > 0.0:
-            radius = max(radius, float(np.sqrt(max(turning) / max(going))))
-    return float(place + 1.5 * radius)
+    places = extent(db, list(db.bodies))
+    turning = max(gyration(db, name) for name in db.bodies)
+    return (places if np.isfinite(places) else 0.0) + 1.5 * turning
 
 
 def _symmetric_about_y(db: HydroDatabase) -> bool:

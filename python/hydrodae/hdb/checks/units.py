@@ -32,7 +32,7 @@ def unit_findings(db: HydroDatabase) -> list[Finding]:
     clear = correlation > CORRELATION
     turned = [(turn / db.omega[::-1], a[::-1], b[::-1]) for turn in (TURN, TURN**2)]
     if not clear.any() and any(_agree(*tables) for tables in turned):
-        text = "A and B fit each other if the frequencies [rad/s] are periods [s], or the reverse"
+        text = "A and B do not belong to each other in this order of the frequencies"
         return [Finding("error", "units of frequency", text)]
     if clear.sum() < max(2, 0.4 * slope.size):
         # tables that end before B falls, or of one coordinate
@@ -42,17 +42,9 @@ def unit_findings(db: HydroDatabase) -> list[Finding]:
         if not wrong.any() or wrong.sum() < 0.6 * used.size:
             return []
     factor = float(np.median(slope[clear]))
-    if 1.0 / FACTOR < factor < FACTOR:
-        return []
-    text = (
-        f"A and B fit each other if B is {factor:.3g} times as large, or the frequencies "
-        f"{1.0 / factor:.3g} times: another unit"
-    )
-    if abs(factor / TURN - 1.0) < 0.15:
-        text += " (rad/s taken for Hz?)"
-    elif abs(factor * TURN - 1.0) < 0.15:
-        text += " (Hz taken for rad/s?)"
-    return [Finding("error", "units of frequency", text, factor)]
+    text = f"A and B fit each other if B is {factor:.3g} times as large"
+    severity = "info" if 1.0 / FACTOR < factor < FACTOR else "error"
+    return [Finding(severity, "units of frequency", text, factor)]
 
 
 def _agree(omega: Array, a: Array, b: Array) -> bool:
