@@ -31,6 +31,7 @@ MOTIONS = (
 
 def changes(db: HydroDatabase) -> Iterator[Change]:
     """Yield every change of one convention, unit, label or place."""
+    yield from of_depth(db)
     yield from _of_waves(db)
     yield from _of_frequencies(db)
     for name, factor in (("1000", 1e3), ("rho", db.rho), ("g", db.gravity), ("2 pi", TURN)):
@@ -86,6 +87,10 @@ def _of_waves(db: HydroDatabase) -> Iterator[Change]:
                 yield f"the headings were {text}", replace(db, heading=heading)
         side = np.array([-1.0 if c.dof in (1, 3, 5) else 1.0 for c in db.labels])
         yield "the y axis of the forces pointed the other way", _forces(db, side)
+
+
+def of_depth(db: HydroDatabase) -> Iterator[Change]:
+    """Yield the database in deep water: the one change that is small against units and labels."""
     if np.isfinite(db.water_depth):
         yield "the water was deep (--depth)", replace(db, water_depth=np.inf)
 

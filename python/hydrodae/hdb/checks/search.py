@@ -14,7 +14,7 @@ from itertools import islice
 
 import numpy as np
 
-from hydrodae.hdb.checks.changes import Change, changes, factors
+from hydrodae.hdb.checks.changes import Change, changes, factors, of_depth
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import SEVERITIES, Finding
 
@@ -36,6 +36,8 @@ SILENT = (
     "motions of a body",
     "hydrostatics",
 )
+#: Level of errors.
+ERROR = len(SEVERITIES) - 1
 #: Most changes that are named.
 NAMED = 3
 
@@ -58,8 +60,10 @@ def law_findings(db: HydroDatabase, laws: Sequence[Law]) -> list[Finding]:
     order = sorted(range(len(laws)), key=lambda n: -max(_levels(by_law[n]).values(), default=0))
     broken = sum(any(_levels(findings).values()) for findings in by_law)
     tried = [laws[n] for n in order]
-    mends = list(_mends(changes(db), tried, broken, before))
-    if not mends:
+    errors = max(before.values()) == ERROR
+    # warnings are a few per cent, which no other unit or label is
+    mends = list(_mends(changes(db) if errors else of_depth(db), tried, broken, before))
+    if errors and not mends:
         mends = list(_mends(_fitted(db, found), tried, broken, before))
     return [replace(f, message=f.message + _hint(f, mends)) for f in found]
 
@@ -68,7 +72,7 @@ def _levels(found: Iterable[Finding]) -> dict[str, int]:
     """Return the worst level of each check: 2 of errors, 1 of warnings, 0 of what passes."""
     levels: dict[str, int] = {}
     for f in found:
-        level = len(SEVERITIES) - 1 - SEVERITIES.index(f.severity)
+        level = ERROR - SEVERITIES.index(f.severity)
         levels[f.check] = max(level, levels.get(f.check, 0))
     return levels
 
@@ -122,7 +126,7 @@ def _hint(finding: Finding, mends: list[tuple[int, str, set[str]]]) -> str:
         return ""
     able = [(left, text) for left, text, mended in mends if finding.check in mended]
     if not able:
-        return "; nothing tried here mends it"
+        return "; nothing tried here mends it" if finding.severity == "error" else ""
     least = min(able)[0]
     best = dict.fromkeys(text for left, text in able if left == least)
     return f"; right if {', or if '.join(islice(best, NAMED))}"
