@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 
 from hydrodae import hdb
+from hydrodae.hdb.checks.hulls import hull_findings
 from hydrodae.hdb.checks.longwave import long_wave_findings
-from hydrodae.hdb.checks.one_heading import one_heading_findings
-from hydrodae.hdb.checks.sizes import size_findings
-from hydrodae.hdb.checks.units import unit_findings
+from hydrodae.hdb.checks.units import one_heading_findings, size_findings, unit_findings
 
 ROOT = Path(__file__).parents[2]
 #: A flat hull, and a hull below the water: without waves nothing shows the unit.
@@ -31,6 +30,7 @@ def errors(database: hdb.HydroDatabase) -> dict[str, str]:
     found = [
         *one_heading_findings(database),
         *size_findings(database),
+        *hull_findings(database),
         *unit_findings(database),
         *long_wave_findings(database),
     ]

@@ -11,7 +11,7 @@ import pytest
 from hydrodae import hdb
 from hydrodae.hdb.checks.places import place_findings
 from hydrodae.hdb.checks.rows import row_findings
-from hydrodae.hdb.checks.sizes import size_findings
+from hydrodae.hdb.checks.units import size_findings
 
 
 @pytest.fixture(scope="module")

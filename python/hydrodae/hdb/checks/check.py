@@ -20,14 +20,12 @@ from hydrodae.hdb.checks.headings import heading_findings
 from hydrodae.hdb.checks.hulls import hull_findings
 from hydrodae.hdb.checks.irregular import irregular_findings, ogilvie_residual
 from hydrodae.hdb.checks.longwave import long_wave_findings
-from hydrodae.hdb.checks.one_heading import one_heading_findings
 from hydrodae.hdb.checks.passivity import passivity_findings, sign_findings, symmetry_findings
 from hydrodae.hdb.checks.places import place_findings
 from hydrodae.hdb.checks.rows import row_findings
 from hydrodae.hdb.checks.search import Law, law_findings
-from hydrodae.hdb.checks.sizes import size_findings
 from hydrodae.hdb.checks.smooth import lone_findings, spike_findings
-from hydrodae.hdb.checks.units import unit_findings
+from hydrodae.hdb.checks.units import one_heading_findings, size_findings, unit_findings
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import CheckReport, Finding
 from hydrodae.hdb.database.kernels import diagonal_kernels, envelope_length, resolved_time

@@ -50,22 +50,27 @@ def width(db: HydroDatabase, *names: str) -> float:
 
 
 def length(db: HydroDatabase, name: str, k: Array) -> float:
-    """Length of a body [m], the smaller of those by its added masses and by its forces.
+    """Length of a body [m], the least of those by added masses, by forces and by hydrostatics.
 
-    One of the two may be in other units. `k` (nw,) are the wavenumbers [rad/m].
+    One of them may be in other units. `k` (nw,) are the wavenumbers [rad/m].
     """
     added, forces = [], []
+    statics = db.bodies[name].hydrostatics
     for i, label in enumerate(db.labels):
         if label.body != name:
             continue
         mass = float(np.abs(db.added_mass_inf[i, i])) / db.rho
         added.append(LENGTH * mass ** (0.2 if label.is_rotation else 1.0 / 3.0))
-        force = np.abs(db.excitation[:, :, i]).max(axis=1) / (db.rho * db.gravity)
-        if label.motion == "heave":
-            forces.append(float(np.sqrt(force.max())))
-        elif label.is_translation:
-            forces.append(LENGTH * float((force / k).max()) ** (1.0 / 3.0))
-    return min(max(values) for values in (added, forces) if values)
+        force = np.abs(db.excitation[:, :, i]).max(axis=1, initial=0.0) / (db.rho * db.gravity)
+        if label.is_translation and db.heading.size:
+            heave = label.motion == "heave"
+            size = np.sqrt(force.max()) if heave else LENGTH * np.cbrt((force / k).max())
+            forces.append(float(size))
+    hull = []
+    if statics is not None:
+        volume, area = np.abs([statics.displaced_volume, statics.waterplane_area])
+        hull = [LENGTH * float(np.cbrt(volume)), float(np.sqrt(area))]
+    return min(max(values) for values in (added, forces, hull) if values)
 
 
 def gyration(db: HydroDatabase, name: str) -> float:
