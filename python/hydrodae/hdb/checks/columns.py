@@ -11,13 +11,12 @@ from dataclasses import replace
 import numpy as np
 
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.checks.motions import LONG
 from hydrodae.hdb.checks.shapes import together
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.relations.dispersion import wavenumber
 
-#: Largest k times the root of the area of a long wave: cos(kx) over a disc is 1 within 1 % there.
-LONG = 0.3
 #: Difference of force and stiffness that diffraction and decay with depth do not explain there.
 ALIKE = 0.1
 

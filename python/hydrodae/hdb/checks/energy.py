@@ -17,12 +17,13 @@ from numpy.typing import NDArray
 
 from hydrodae.hdb.checks.band import LEAST_DAMPING, Band, inside
 from hydrodae.hdb.checks.irregular import suspect_rows
+from hydrodae.hdb.checks.motions import motions
 from hydrodae.hdb.checks.shapes import extent, gyration
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.scales import scales
 from hydrodae.hdb.relations.depth import circle, depth_of_bodies
-from hydrodae.hdb.relations.dispersion import group_velocity, wavenumber
+from hydrodae.hdb.relations.dispersion import damping_of_waves
 from hydrodae.hdb.relations.entries import entry_scale
 from hydrodae.support.arrays import Array
 
@@ -66,37 +67,23 @@ def energy_identity(database: HydroDatabase) -> EnergyIdentity | None:
     db = database
     if db.heading.size == 0:
         return None
-    k = wavenumber(db.omega, db.water_depth, db.gravity)
-    speed = group_velocity(db.omega, db.water_depth, db.gravity)
-    factor = k / (8.0 * np.pi * db.rho * db.gravity * speed)
+    k, half_mean = damping_of_waves(db.omega, db.water_depth, db.gravity, db.rho)
     square = np.abs(db.excitation) ** 2
     everything = np.arange(len(db.coordinates))
     weight, step, half = circle(db.heading) or (np.zeros(0), np.inf, False)
     if step <= LARGEST_STEP and (not half or _symmetric_about_y(db)):
-        integral = 2.0 * np.pi * np.einsum("whi,h->wi", square, weight)
+        mean = np.einsum("whi,h->wi", square, weight)
         valid = k * _radius(db) <= np.pi / step - 3.0
-        damping = factor[:, None] * integral
+        damping = 2.0 * half_mean[:, None] * mean
         return EnergyIdentity(everything, damping, valid, "sum over the headings")
     if not _axisymmetric(db):
         return None
-    columns, terms = [], []
-    for i, dof in enumerate(label.dof for label in db.labels):
-        if dof == 5:
-            continue
-        shape = np.ones(db.heading.size)
-        if dof in (0, 4):
-            shape = np.cos(db.heading) ** 2
-        elif dof in (1, 3):
-            shape = np.sin(db.heading) ** 2
-        h = int(shape.argmax())
-        if shape[h] > 0.5:
-            share = 2.0 if dof == 2 else 1.0
-            columns.append(i)
-            terms.append(factor * share * np.pi * square[:, h, i] / shape[h])
-    if not columns:
+    own = [m for m in motions(db) if m.heading is not None]
+    if not own:
         return None
+    implied = np.stack([m.damping(m.force(db.excitation)) for m in own], axis=1)
     valid = np.ones(k.size, dtype=bool)
-    return EnergyIdentity(np.array(columns), np.stack(terms, axis=1), valid, "body of revolution")
+    return EnergyIdentity(np.array([m.column for m in own]), implied, valid, "body of revolution")
 
 
 def energy_findings(database: HydroDatabase, band: Band | None = None) -> list[Finding]:

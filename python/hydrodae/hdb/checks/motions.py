@@ -19,7 +19,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.hdb.checks.shapes import decay, extent, length, together, width
+from hydrodae.hdb.checks.shapes import decay, extent, length, phase, together, width
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.tables import Body
 from hydrodae.hdb.labels import Label
@@ -86,14 +86,8 @@ class Motion:
         return int(share.argmax()) if share.max(initial=0.0) > ALONG else None
 
     def local(self, table: Complex) -> Complex:
-        """Forces (nw, nh) of a table without the phase of the place where the water pushes."""
-        statics, point = self.body.hydrostatics, self.body.reference_point
-        # forces have the phase of where the water pushes, moments that of their point
-        if statics is not None and self.label.is_translation:
-            point = statics.center_of_buoyancy
-        x, y = (0.0, 0.0) if point is None else np.asarray(point)[:2]
-        lag = x * np.cos(self.db.heading) + y * np.sin(self.db.heading)
-        return np.asarray(table[:, :, self.column] * np.exp(1j * np.outer(self.k, lag)))
+        """Forces (nw, nh) of a table without the phase of the place of the body."""
+        return table[:, :, self.column] * phase(self.db, self.label.body, self.k)
 
     def force(self, table: Complex) -> Complex:
         """Forces (nw,) of a table in waves along the axis, complex."""
@@ -120,6 +114,13 @@ class Motion:
         assert self.body.hydrostatics is not None
         volume = self.body.hydrostatics.displaced_volume
         return np.asarray(self.db.omega**2 * (self.db.rho * volume + self.added))
+
+    @property
+    def follows(self) -> NDArray[np.bool_]:
+        """Where (nw,) the heave force is that of the waterplane; nowhere where no hull is known."""
+        if self.hull is None or self.body.hydrostatics is None:
+            return np.zeros(self.k.size, bool)
+        return np.asarray(self.inertia < FOLLOWS * (self.hull + self.inertia))
 
     def damping(self, force: Array | Complex) -> Array:
         """Damping (nw,) that a force along the axis implies [N s/m, N m s]."""

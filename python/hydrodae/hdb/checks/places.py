@@ -14,21 +14,18 @@ small; that height is above the ground.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import j1
 
+from hydrodae.hdb.checks.motions import motions
 from hydrodae.hdb.checks.shapes import away, width
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
-from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.support.arrays import Array
 
-#: Longest k times the larger body, and k times the distance up to which the waves meet in order.
-LONG, FARTHEST = 1.0, 3.5
+#: Longest k times the length of a body, and the distance of bodies whose waves meet in order.
+LONG, FARTHEST = 1.7, 3.5
 #: Fewest frequencies, correlation that is no chance, least share of the distance along a motion.
 FEWEST, SURE, ALONG = 4, 0.9, 0.5
-#: Inertia over stiffness up to which a floating body's heave force is that of its waterplane.
-FOLLOWS = 0.5
 #: A_14 and A_25 over A_15 and A_24 that no hull has, and over the root of A_11 A_44 that matters.
 CROSSED, MATTERS = 3.0, 0.02
 #: Difference of A_11 and A_22 from which they have main axes.
@@ -57,46 +54,33 @@ def place_findings(database: HydroDatabase) -> list[Finding]:
 
 def _sides(db: HydroDatabase) -> list[Finding]:
     """Report bodies whose coupling has the sign of the other side."""
-    at = {label: i for i, label in enumerate(db.coordinates)}
-    k, b = wavenumber(db.omega, db.water_depth, db.gravity), db.radiation_damping
+    b, table = db.radiation_damping, motions(db)
     wrong: list[tuple[float, str, str]] = []
     judged = 0
-    for one in db.bodies:
-        for other in db.bodies:
-            i3 = at.get(f"{other}.heave")
-            way = away(db, one, other)
-            if i3 is None or way is None or not np.hypot(*way) > 0.0:
+    for heave in (m for m in table if m.label.dof == 2):
+        for m in (m for m in table if m.label.dof < 2):
+            way = away(db, m.label.body, heave.label.body)
+            distance = 0.0 if way is None else float(np.hypot(*way))
+            if way is None or abs(way[m.label.dof]) < ALONG * distance or distance == 0.0:
                 continue
-            distance = float(np.hypot(*way))
-            long = (k * width(db, one, other) < LONG) & (k * distance < FARTHEST)
-            long &= _follows(db, other, i3)
-            for dof, part in zip(("surge", "sway"), way / distance, strict=True):
-                i = at.get(f"{one}.{dof}")
-                if i is None or abs(part) < ALONG or np.count_nonzero(long) < FEWEST:
-                    continue
-                own = np.sqrt(np.maximum(b[long, i, i] * b[long, i3, i3], 0.0))
-                expected = -np.sqrt(2.0) * own * j1(k[long] * distance) * part
-                stored = b[long, i, i3]
-                size = float(np.linalg.norm(expected) * np.linalg.norm(stored))
-                judged += size > 0.0
-                if size > 0.0 and float(expected @ stored) < -SURE * size:
-                    wrong.append((distance, f"{one}.{dof}", f"{other}.heave"))
+            long = (m.k * max(m.length, heave.length) < LONG) & (m.k * distance < FARTHEST)
+            long &= heave.follows
+            if np.count_nonzero(long) < FEWEST:
+                continue
+            own = np.sqrt(np.maximum(m.stored[long] * heave.stored[long], 0.0))
+            part = way[m.label.dof] / distance
+            expected = -np.sqrt(2.0) * own * j1(m.k[long] * distance) * part
+            stored = b[long, m.column, heave.column]
+            size = float(np.linalg.norm(expected) * np.linalg.norm(stored))
+            judged += size > 0.0
+            if size > 0.0 and float(expected @ stored) < -SURE * size:
+                wrong.append((distance, str(m.label), str(heave.label)))
     if not wrong:
         text = f"{judged} couplings of bodies have the signs of their places"
         return [Finding("info", "places of bodies", text, float(judged))] if judged else []
-    _, motion, heave = min(wrong)
-    text = f"B of {motion} by {heave} has the sign of bodies in each other's places"
+    _, motion, by = min(wrong)
+    text = f"B of {motion} by {by} has the sign of bodies in each other's places"
     return [Finding("error", "places of bodies", text, float(len(wrong)))]
-
-
-def _follows(db: HydroDatabase, name: str, heave: int) -> NDArray[np.bool_]:
-    """Where (nw,) the heave force of a body is that of its waterplane; nowhere if unknown."""
-    statics = db.bodies[name].hydrostatics
-    if statics is None:
-        return np.zeros(db.omega.size, bool)
-    stiffness = db.rho * db.gravity * statics.waterplane_area
-    mass = db.rho * statics.displaced_volume + db.added_mass[:, heave, heave]
-    return np.asarray(db.omega**2 * mass < FOLLOWS * stiffness)
 
 
 def _block(db: HydroDatabase, name: str) -> Array | None:

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.support.arrays import Array
+from hydrodae.support.arrays import Array, Complex
 
 #: Length of a body over the cube root of its added mass over rho: a hemisphere's waterplane.
 LENGTH = 1.7
@@ -27,6 +27,14 @@ def away(db: HydroDatabase, one: str, other: str) -> Array | None:
     """Return the horizontal way (2,) from one body to another [m]; None where not known."""
     start, end = place(db, one), place(db, other)
     return None if start is None or end is None or one == other else (end - start)[:2]
+
+
+def phase(db: HydroDatabase, name: str, k: Array) -> Complex:
+    """Return e^{i k.x} (nw, nh), x where a body is (the origin if unknown): forces lose it."""
+    point = place(db, name)
+    x, y = (0.0, 0.0) if point is None else point[:2]
+    along = x * np.cos(db.heading) + y * np.sin(db.heading)
+    return np.asarray(np.exp(1j * np.outer(k, along)))
 
 
 def extent(db: HydroDatabase, names: Sequence[str]) -> float:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.hdb.checks.ground import standing
-from hydrodae.hdb.checks.motions import FEWEST, FOLLOWS, LONGEST, Motion, motions
+from hydrodae.hdb.checks.motions import FEWEST, LONGEST, Motion, motions
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.scales import scales
@@ -98,7 +98,7 @@ def _hull_damping(group: Iterable[Motion]) -> list[Finding]:
         if m.hull is None or (m.label.dof == 2 and not known):
             continue
         if m.label.dof == 2:
-            rows &= m.inertia < FOLLOWS * (m.hull + m.inertia)
+            rows &= m.follows
         told = _ratios(m, m.damping(m.hull), rows)
         if told is not None:
             limit = UNKNOWN if not known else ALL if m.label.dof == 2 else ONE
