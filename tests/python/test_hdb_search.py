@@ -16,11 +16,12 @@ from hydrodae.hdb.database.findings import Finding
 
 
 @pytest.fixture(scope="module")
-def pair() -> HydroDatabase:
-    """Two cylinders and waves along both axes, moments about the surface of the water."""
-    water = hdb.Water(np.linspace(0.4, 9.0, 44), depth=4.0, heading=np.array([0.0, 0.5 * np.pi]))
-    places = {"a": (0.0, 0.0), "b": (1.5, 0.4)}
-    return hdb.cylinders(places, hdb.Cylinder(0.4, 0.5, -0.3), water, orders=2, modes=8)[0]
+def buoy() -> HydroDatabase:
+    """A cylinder beside the origin and waves along both axes, moments about the water's surface."""
+    water = hdb.Water(np.linspace(0.4, 11.0, 32), depth=4.0, heading=np.array([0.0, 0.5 * np.pi]))
+    return hdb.cylinders({"b": (1.5, 0.4)}, hdb.Cylinder(0.4, 0.5, -0.3), water, orders=2, modes=8)[
+        0
+    ]
 
 
 def conjugate(db: HydroDatabase) -> HydroDatabase:
@@ -40,35 +41,35 @@ FAULTS: dict[str, tuple[Callable[[HydroDatabase], HydroDatabase], str]] = {
 
 
 @pytest.mark.parametrize("fault", FAULTS)
-def test_the_change_that_undoes_a_fault_is_named(pair: HydroDatabase, fault: str) -> None:
+def test_the_change_that_undoes_a_fault_is_named(buoy: HydroDatabase, fault: str) -> None:
     made, words = FAULTS[fault]
-    errors = hdb.check(made(pair)).of("error")
+    errors = hdb.check(made(buoy)).of("error")
     assert errors
     assert all("; right if" in f.message and words in f.message for f in errors), errors
 
 
-def test_every_change_leaves_the_shapes(pair: HydroDatabase) -> None:
-    found = dict(changes(pair))
+def test_every_change_leaves_the_shapes(buoy: HydroDatabase) -> None:
+    found = dict(changes(buoy))
     assert len(found) > 50
     for made in found.values():
-        assert made.excitation.shape == pair.excitation.shape
+        assert made.excitation.shape == buoy.excitation.shape
         assert np.all(np.diff(made.omega) > 0.0)
-        assert made.coordinates == pair.coordinates
+        assert made.coordinates == buoy.coordinates
 
 
-def test_a_law_that_does_not_judge_the_changed_table_is_not_obeyed(pair: HydroDatabase) -> None:
+def test_a_law_that_does_not_judge_the_changed_table_is_not_obeyed(buoy: HydroDatabase) -> None:
     def silent(db: HydroDatabase) -> list[Finding]:
-        return [Finding("error", "law", "broken")] if db is pair else []
+        return [Finding("error", "law", "broken")] if db is buoy else []
 
     def worse(db: HydroDatabase) -> list[Finding]:
-        severity = "info" if db is pair else "error"
+        severity = "info" if db is buoy else "error"
         return [Finding(severity, "other", "judged")]
 
     def mended(db: HydroDatabase) -> list[Finding]:
-        severity = "error" if db is pair else "info"
+        severity = "error" if db is buoy else "info"
         return [Finding(severity, "law", "judged")]
 
     for laws in ([silent], [mended, worse]):
-        found = law_findings(pair, laws)
+        found = law_findings(buoy, laws)
         assert found[0].message.endswith("; nothing tried here mends it")
-    assert "; right if" in law_findings(pair, [mended])[0].message
+    assert "; right if" in law_findings(buoy, [mended])[0].message

@@ -13,7 +13,7 @@ import numpy as np
 from hydrodae.hdb.checks.band import Band, felt_band
 from hydrodae.hdb.checks.columns import column_findings, columns, hulls_alone, open_hulls
 from hydrodae.hdb.checks.drift import drift_findings
-from hydrodae.hdb.checks.energy import depth_findings, energy_findings
+from hydrodae.hdb.checks.energy import depth_findings, energy_findings, unchecked_energy
 from hydrodae.hdb.checks.fits import fit_findings
 from hydrodae.hdb.checks.ground import of_what_moves
 from hydrodae.hdb.checks.headings import heading_findings
@@ -75,6 +75,7 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
             *spike_findings(database, judged),
             *fit_findings(database),
             *law_findings(database, laws(band)),
+            *unchecked_energy(database),
             *column_findings(database),
             *drift_findings(database),
         ]

@@ -103,13 +103,7 @@ def energy_findings(database: HydroDatabase, band: Band | None = None) -> list[F
     """
     found = energy_identity(database)
     if found is None:
-        if database.heading.size == 0:
-            return []
-        text = (
-            "not checked: needs headings around the circle (or 0..180 deg with symmetry about "
-            "y = 0), or a body of revolution"
-        )
-        return [Finding("info", "damping from excitation", text)]
+        return []
     active = scales(database) > 0.0
     worst: tuple[float, float, str, float, float] | None = None
     clean = ~suspect_rows(database)
@@ -141,6 +135,17 @@ def energy_findings(database: HydroDatabase, band: Band | None = None) -> list[F
         f"by the {found.method}" + (f"; {off} coordinates beyond 5 %" if off > 1 else "")
     )
     return [Finding(severity, "damping from excitation", text, error, omega)]
+
+
+def unchecked_energy(database: HydroDatabase) -> list[Finding]:
+    """Say where the headings do not suffice: no finding of the law, which does not judge there."""
+    if database.heading.size == 0 or energy_identity(database) is not None:
+        return []
+    text = (
+        "not checked: needs headings around the circle (or 0..180 deg with symmetry about "
+        "y = 0), or a body of revolution"
+    )
+    return [Finding("info", "damping from excitation", text)]
 
 
 def depth_findings(db: HydroDatabase) -> list[Finding]:
