@@ -31,10 +31,12 @@ DOUBTFUL, ALL, ONE = 2.0, 2.5, 5.0
 UNKNOWN = 60.0
 #: Damping of noise: positive at fewer of the long waves, or following k to more than this power.
 POSITIVE, NOISE = 0.8, 1.5
-#: Least share of the largest damping of long waves.
-LEAST = 0.01
+#: Least share of the largest damping of long waves, beside forces (both fade there) and the hull.
+OF_FORCE, OF_HULL = 0.02, 0.01
 #: Between walls the ratio of all motions follows k to the power 1 within this.
 WALLS = 0.06
+#: Least k L at the first frequency that no table has: the length is that of other units.
+SHORT = 10.0
 #: Correlation that a line has whose A and B belong to each other: 0.99 in 24 tables, 0.88 and less
 #: where these are by period.
 CORRELATION = 0.95
@@ -98,7 +100,7 @@ def _hull_damping(group: Iterable[Motion]) -> list[Finding]:
             continue
         if m.label.dof == 2:
             rows &= m.follows
-        told = _ratios(m, m.damping(m.hull), rows)
+        told = _ratios(m, m.damping(m.hull), rows, OF_HULL)
         if told is not None:
             limit = UNKNOWN if not known else ALL if m.label.dof == 2 else ONE
             seen.append((told[0], str(m.label), limit))
@@ -148,8 +150,9 @@ def _logs(db: HydroDatabase, table: Sequence[Motion]) -> tuple[dict[Label, float
     for m in table:
         if m.heading is None or m.label.body in held or not active[m.column]:
             continue
-        long = m.k * m.length < LONGEST
-        ratio = _ratios(m, m.damping(m.force(db.excitation)), long)
+        far = m.k[0] * m.length > SHORT
+        long = np.arange(m.k.size) <= FEWEST if far else m.k * m.length < LONGEST
+        ratio = _ratios(m, m.damping(m.force(db.excitation)), long, OF_FORCE)
         if ratio is None or abs(ratio[1]) > NOISE:
             continue
         found[m.label] = float(np.log(ratio[0]))
@@ -157,12 +160,14 @@ def _logs(db: HydroDatabase, table: Sequence[Motion]) -> tuple[dict[Label, float
     return found, bool(walls) and all(walls)
 
 
-def _ratios(m: Motion, implied: Array, long: NDArray[np.bool_]) -> tuple[float, float] | None:
+def _ratios(
+    m: Motion, implied: Array, long: NDArray[np.bool_], least: float
+) -> tuple[float, float] | None:
     """Implied over stored damping of long waves, and the power of k of that, if they tell."""
     b = m.stored
     if not long.any() or np.mean(b[long] > 0.0) < POSITIVE:
         return None
-    used = long & (b > LEAST * b[long].max())
+    used = long & (b > least * b[long].max())
     if np.count_nonzero(used) < FEWEST or not np.all(implied[used] > 0.0):
         return None
     ratio = implied[used] / b[used]
