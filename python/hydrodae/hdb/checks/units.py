@@ -8,7 +8,7 @@ that is no unit.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -69,28 +69,24 @@ def _added(group: Sequence[Motion]) -> list[Finding]:
     for m in group:
         if m.heading is None or m.label.dof > 1:
             continue
-        what, low, high = "the whole force", 1.0 / UNKNOWN, DOUBTFUL
-        table = m.db.excitation
+        what, table, low = "the whole force", m.db.excitation, 1.0 / UNKNOWN
         if m.db.excitation_split:
-            what, low, high = "the diffraction force", 1.0 / DOUBTFUL, DOUBTFUL
-            table = m.db.diffraction
+            what, table, low = "the diffraction force", m.db.diffraction, 1.0 / DOUBTFUL
         force = np.abs(m.force(table)) / (m.k * m.db.gravity)
         long = m.as_one()
         if np.count_nonzero(long) < FEWEST or not np.all(force[long] > 0.0):
             continue
         ratio = float(np.median(m.added[long] / force[long]))
-        seen.append((not low < ratio < high, ratio, f"{what} of long waves in {m.label}"))
+        seen.append((not low < ratio < DOUBTFUL, ratio, f"{what} of long waves in {m.label}"))
     if not seen:
         return []
-    # one direction that is right is enough
-    wrong, ratio, what = min(seen)
+    wrong, ratio, what = min(seen)  # one direction that is right is enough
     text = f"A is {ratio:.3g} of what {what} has of it"
-    omega = float(group[0].db.omega[0])
-    severity = "error" if wrong else "info"
+    severity, omega = "error" if wrong else "info", float(group[0].db.omega[0])
     return [Finding(severity, "added mass from force", text, ratio, omega)]
 
 
-def _hull_damping(group: Iterable[Motion]) -> list[Finding]:
+def _hull_damping(group: Sequence[Motion]) -> list[Finding]:
     """Damping of bodies near each other, one by one, against that of their hulls."""
     seen = []
     for m in group:
@@ -133,10 +129,8 @@ def one_heading_findings(database: HydroDatabase) -> list[Finding]:
         severity = "warning" if tank else "error"
     else:
         label = max(off, key=lambda c: abs(off[c]))
-        size = abs(off[label])
-        severity = (
-            "error" if size > np.log(ONE) else "warning" if size > np.log(DOUBTFUL) else "info"
-        )
+        beyond = sum(abs(off[label]) > np.log([DOUBTFUL, ONE]))
+        severity = ("info", "warning", "error")[beyond]
     ratio = float(np.exp(off[label]))
     text = f"the force of {label} in long waves implies {ratio:.3g} times its B"
     return [Finding(severity, "damping from one heading", text, ratio)]
@@ -163,7 +157,7 @@ def _logs(db: HydroDatabase, table: Sequence[Motion]) -> tuple[dict[Label, float
 def _ratios(
     m: Motion, implied: Array, long: NDArray[np.bool_], least: float
 ) -> tuple[float, float] | None:
-    """Implied over stored damping of long waves, and the power of k of that, if they tell."""
+    """Implied over stored damping of long waves, and the power of k of that; None of too few."""
     b = m.stored
     if not long.any() or np.mean(b[long] > 0.0) < POSITIVE:
         return None
