@@ -112,7 +112,7 @@ def test_real_bemio_file_of_the_sphere(reference):
     # which matters to swells longer than those of the sea only
     assert finding.severity == "warning"
     assert "longer waves are not felt" in finding.message
-    assert "if it was computed in deep water" in finding.message
+    assert "right if the water was deep (--depth)" in finding.message
 
 
 def test_estimates_of_bemio_are_not_taken_for_data(array, bemio_file, tmp_path):

@@ -10,29 +10,28 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydrodae.hdb.checks.band import LEAST_DAMPING, Band, damping_sizes, felt_band, inside
+from hydrodae.hdb.checks.band import Band, felt_band
 from hydrodae.hdb.checks.columns import column_findings, columns, hulls_alone, open_hulls
 from hydrodae.hdb.checks.drift import drift_findings
-from hydrodae.hdb.checks.energy import depth_findings, energy_findings
+from hydrodae.hdb.checks.energy import depth_findings, energy_findings, unchecked_energy
 from hydrodae.hdb.checks.fits import fit_findings
 from hydrodae.hdb.checks.ground import of_what_moves
 from hydrodae.hdb.checks.headings import heading_findings
 from hydrodae.hdb.checks.hulls import hull_findings
 from hydrodae.hdb.checks.irregular import irregular_findings, ogilvie_residual
 from hydrodae.hdb.checks.longwave import long_wave_findings
-from hydrodae.hdb.checks.one_heading import one_heading_findings
+from hydrodae.hdb.checks.passivity import passivity_findings, sign_findings, symmetry_findings
 from hydrodae.hdb.checks.places import place_findings
 from hydrodae.hdb.checks.rows import row_findings
-from hydrodae.hdb.checks.sizes import size_findings
+from hydrodae.hdb.checks.search import Law, law_findings
 from hydrodae.hdb.checks.smooth import lone_findings, spike_findings
-from hydrodae.hdb.checks.units import unit_findings
+from hydrodae.hdb.checks.units import one_heading_findings, size_findings, unit_findings
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import CheckReport, Finding
 from hydrodae.hdb.database.kernels import diagonal_kernels, envelope_length, resolved_time
-from hydrodae.hdb.database.scales import scaled_damping_eigenvalues, scales
+from hydrodae.hdb.database.scales import scales
 from hydrodae.hdb.labels import rigid
 from hydrodae.hdb.relations import irf, tails
-from hydrodae.hdb.relations.entries import asymmetry, worst
 
 
 def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
@@ -48,9 +47,9 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
     Returns
     -------
     CheckReport
-        Of the rigid coordinates, in the order grid, headings, memory, symmetry, energy, irregular
-        frequencies, garbled rows, sizes, places, causality, spikes, fits, long waves, hulls,
-        tables of second order.
+        Of the rigid coordinates, in the order grid, headings, memory, symmetry, passivity,
+        irregular frequencies, garbled rows, depth, causality, spikes, fits, laws that a change of
+        the table may mend, water columns, tables of second order.
     """
     modes = sum(label.is_mode for label in database.labels)
     if modes == len(database.coordinates):
@@ -58,8 +57,6 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
     if modes:
         database = database.select(rigid(database.coordinates))
     judged = band or felt_band(database)
-    pistons = columns(database)
-    hulls = hulls_alone(database) if pistons else database
     return CheckReport(
         [
             _judged(judged, given=band is not None),
@@ -67,33 +64,54 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
             *_grid(database),
             *heading_findings(database, judged),
             *_memory(database),
-            *_symmetry(database),
+            *symmetry_findings(database),
             *of_what_moves(
-                database, lambda db: [*_energy(db, judged), *irregular_findings(db, judged)]
+                database,
+                lambda db: [*passivity_findings(db, judged), *irregular_findings(db, judged)],
             ),
             *lone_findings(database, judged),
-            *energy_findings(database, judged),
             *depth_findings(database),
-            *([] if _negative(database) else one_heading_findings(database)),
-            *([] if hulls is None else [*size_findings(hulls), *place_findings(hulls)]),
-            *([] if hulls is None else row_findings(hulls)),
             *_causality(database),
-            *unit_findings(database),
             *spike_findings(database, judged),
             *fit_findings(database),
-            *_long_waves(hulls, judged, closed=not pistons),
+            *law_findings(database, laws(band)),
+            *unchecked_energy(database),
             *column_findings(database),
             *drift_findings(database),
         ]
     )
 
 
-def _long_waves(hulls: HydroDatabase | None, band: Band, *, closed: bool) -> list[Finding]:
-    """Checks of hulls by long waves; without hydrostatics where water columns close them."""
-    if hulls is None:
-        return []
-    seen = hulls if closed else open_hulls(hulls)
-    return [*long_wave_findings(seen, band), *hull_findings(hulls)]
+def laws(band: Band | None) -> list[Law]:
+    """Return the laws that a change of the table may mend; errors count in the band."""
+
+    def judged(db: HydroDatabase) -> Band:
+        return band or felt_band(db)
+
+    def of_one_heading(db: HydroDatabase) -> list[Finding]:
+        return of_what_moves(db, sign_findings) or one_heading_findings(db)
+
+    def of_hulls(law: Law, *, closed: bool = False) -> Law:
+        """Judge hulls without water columns; by no hydrostatics that these close."""
+
+        def alone(db: HydroDatabase) -> list[Finding]:
+            if not columns(db):
+                return law(db)
+            hulls = hulls_alone(db)
+            return [] if hulls is None else law(open_hulls(hulls) if closed else hulls)
+
+        return alone
+
+    return [
+        of_one_heading,
+        of_hulls(lambda db: long_wave_findings(db, judged(db)), closed=True),
+        of_hulls(size_findings),
+        of_hulls(place_findings),
+        of_hulls(row_findings),
+        of_hulls(hull_findings),
+        unit_findings,
+        lambda db: energy_findings(db, judged(db)),
+    ]
 
 
 def _judged(band: Band, *, given: bool) -> Finding:
@@ -170,86 +188,6 @@ def _memory(db: HydroDatabase) -> list[Finding]:
         Finding(level, "memory length", lasts, float(lengths[i])),
         Finding("info", "tail", text, float(np.mean(tail.used)), float(db.omega[-1])),
     ]
-
-
-def _symmetry(db: HydroDatabase) -> list[Finding]:
-    """A and B of the database itself (readers symmetrise and report what they found)."""
-    found = []
-    for name in ("added_mass", "radiation_damping"):
-        error, (at, _, _) = worst(asymmetry(getattr(db, name)))
-        if error > 1e-6:
-            level = "warning" if error > 0.02 else "info"
-            text = f"largest asymmetry {error:.2g} of the diagonal"
-            found.append(Finding(level, f"{name} symmetric", text, error, float(db.omega[at])))
-    return found
-
-
-def _worst_pair(db: HydroDatabase, at: int) -> str:
-    """The one or two coordinates that weigh most in the most negative direction of the scaled B."""
-    sizes = damping_sizes(db)[at]
-    used = np.flatnonzero(sizes > 0.0)
-    s = np.sqrt(sizes[used])
-    scaled = db.radiation_damping[at][np.ix_(used, used)] / np.outer(s, s)
-    weight = np.abs(np.linalg.eigh(scaled)[1][:, 0])
-    names = [db.coordinates[used[i]] for i in np.argsort(weight)[::-1][:2]]
-    return f"mostly {' with '.join(names)}"
-
-
-def _negative(db: HydroDatabase) -> list[Finding]:
-    """Coordinates whose damping has the wrong sign altogether."""
-    diagonal = np.einsum("wii->wi", db.radiation_damping)
-    floor = LEAST_DAMPING * np.outer(db.omega, np.abs(np.diag(db.added_mass_inf)))
-    wrong = [
-        i
-        for i in range(diagonal.shape[1])
-        if -diagonal[:, i].min() > 2.0 * abs(diagonal[:, i].max())
-        and np.any(-diagonal[:, i] > floor[:, i])
-        and np.mean(diagonal[:, i] < 0.0) > 0.5  # else a spike: irregular frequencies
-    ]
-    if not wrong:
-        return []
-    names = ", ".join(db.coordinates[i] for i in wrong)
-    at = int(diagonal[:, wrong[0]].argmin())
-    text = f"B of {names} is negative throughout: waves would drive the body that makes them"
-    return [Finding("error", "sign of B", text, float(len(wrong)), float(db.omega[at]))]
-
-
-def _energy(db: HydroDatabase, band: Band) -> list[Finding]:
-    lowest = scaled_damping_eigenvalues(db, damping_sizes(db))
-    judged = np.flatnonzero(inside(db.omega, band))
-    if not judged.size:
-        judged = np.arange(db.omega.size)
-    at = int(judged[lowest[judged].argmin()])
-    value = float(lowest[at])
-    bad = judged[lowest[judged] < -0.02]
-    beyond = np.flatnonzero(lowest < -0.02)
-    beyond = beyond[~np.isin(beyond, judged)]
-    text = f"smallest eigenvalue of the scaled B is {value:.2g} (of a peak of 1)"
-    if bad.size:
-        text += (
-            f"; below -0.02 at {bad.size} of {judged.size} frequencies, "
-            f"from {db.omega[bad[0]]:.4g} to {db.omega[bad[-1]]:.4g} rad/s: "
-            f"the waves would feed energy into the body there"
-        )
-    level = "error" if value < -0.5 else "warning" if bad.size else "info"
-    if level == "error":
-        text += f" ({_worst_pair(db, at)}; --keep what moves)"
-    if beyond.size:
-        text += f"; {lowest[beyond].min():.2g} outside the band, at {beyond.size} frequencies"
-    found = [Finding(level, "B positive semidefinite", text, value, float(db.omega[at]))]
-    found += _negative(db)
-    diagonal = np.sqrt(np.abs(np.diag(db.added_mass_inf)))
-    s = scales(db)
-    used = (s > 0.0) & (diagonal > 0.0)
-    if used.any():
-        square = np.ix_(used, used)
-        scaled = db.added_mass_inf[square] / np.outer(diagonal[used], diagonal[used])
-        value = float(np.linalg.eigvalsh(scaled)[0])
-        if value < -0.02:
-            text = f"smallest eigenvalue of the scaled matrix is {value:.2g}"
-            check = "added_mass_inf positive semidefinite"
-            found.append(Finding("warning", check, text, value))
-    return found
 
 
 def _causality(db: HydroDatabase) -> list[Finding]:

@@ -11,12 +11,12 @@ from dataclasses import replace
 import numpy as np
 
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.checks.motions import LONG
+from hydrodae.hdb.checks.shapes import together
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.relations.dispersion import wavenumber
 
-#: Largest k times the root of the area of a long wave: cos(kx) over a disc is 1 within 1 % there.
-LONG = 0.3
 #: Difference of force and stiffness that diffraction and decay with depth do not explain there.
 ALIKE = 0.1
 
@@ -85,9 +85,9 @@ def column_findings(database: HydroDatabase) -> list[Finding]:
             continue
         if k * np.sqrt(area) > LONG:
             continue
-        i = database.coordinates.index(f"{name}.heave")
-        together = [j for j, c in enumerate(database.coordinates) if c.endswith(".heave")]
-        inertia = database.omega[0] ** 2 * database.added_mass[0, i, together].sum()
+        label = f"{name}.heave"
+        i = database.coordinates.index(label)
+        inertia = database.omega[0] ** 2 * together(database, label, list(database.bodies))[0]
         force = float(np.abs(database.excitation[0, :, i]).max() + inertia)
         seen = force / (database.rho * database.gravity)
         error = abs(seen / area - 1.0)

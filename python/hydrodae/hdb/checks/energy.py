@@ -17,11 +17,13 @@ from numpy.typing import NDArray
 
 from hydrodae.hdb.checks.band import LEAST_DAMPING, Band, inside
 from hydrodae.hdb.checks.irregular import suspect_rows
+from hydrodae.hdb.checks.motions import motions
+from hydrodae.hdb.checks.shapes import extent, gyration
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.scales import scales
-from hydrodae.hdb.relations.depth import depth_of_bodies
-from hydrodae.hdb.relations.dispersion import group_velocity, wavenumber
+from hydrodae.hdb.relations.depth import circle, depth_of_bodies
+from hydrodae.hdb.relations.dispersion import damping_of_waves
 from hydrodae.hdb.relations.entries import entry_scale
 from hydrodae.support.arrays import Array
 
@@ -65,37 +67,23 @@ def energy_identity(database: HydroDatabase) -> EnergyIdentity | None:
     db = database
     if db.heading.size == 0:
         return None
-    k = wavenumber(db.omega, db.water_depth, db.gravity)
-    speed = group_velocity(db.omega, db.water_depth, db.gravity)
-    factor = k / (8.0 * np.pi * db.rho * db.gravity * speed)
+    k, half_mean = damping_of_waves(db.omega, db.water_depth, db.gravity, db.rho)
     square = np.abs(db.excitation) ** 2
     everything = np.arange(len(db.coordinates))
-    weight = _circle(db)
-    if weight is not None:
-        integral = np.einsum("whi,h->wi", square, weight)
-        valid = k * _extent(db) <= np.pi / _largest_step(db) - 3.0
-        damping = factor[:, None] * integral
+    weight, step, half = circle(db.heading) or (np.zeros(0), np.inf, False)
+    if step <= LARGEST_STEP and (not half or _symmetric_about_y(db)):
+        mean = np.einsum("whi,h->wi", square, weight)
+        valid = k * _radius(db) <= np.pi / step - 3.0
+        damping = 2.0 * half_mean[:, None] * mean
         return EnergyIdentity(everything, damping, valid, "sum over the headings")
     if not _axisymmetric(db):
         return None
-    columns, terms = [], []
-    for i, dof in enumerate(label.dof for label in db.labels):
-        if dof == 5:
-            continue
-        shape = np.ones(db.heading.size)
-        if dof in (0, 4):
-            shape = np.cos(db.heading) ** 2
-        elif dof in (1, 3):
-            shape = np.sin(db.heading) ** 2
-        h = int(shape.argmax())
-        if shape[h] > 0.5:
-            share = 2.0 if dof == 2 else 1.0
-            columns.append(i)
-            terms.append(factor * share * np.pi * square[:, h, i] / shape[h])
-    if not columns:
+    own = [m for m in motions(db) if m.heading is not None]
+    if not own:
         return None
+    implied = np.stack([m.damping(m.force(db.excitation)) for m in own], axis=1)
     valid = np.ones(k.size, dtype=bool)
-    return EnergyIdentity(np.array(columns), np.stack(terms, axis=1), valid, "body of revolution")
+    return EnergyIdentity(np.array([m.column for m in own]), implied, valid, "body of revolution")
 
 
 def energy_findings(database: HydroDatabase, band: Band | None = None) -> list[Finding]:
@@ -115,13 +103,7 @@ def energy_findings(database: HydroDatabase, band: Band | None = None) -> list[F
     """
     found = energy_identity(database)
     if found is None:
-        if database.heading.size == 0:
-            return []
-        text = (
-            "not checked: needs headings around the circle (or 0..180 deg with symmetry about "
-            "y = 0), or a body of revolution"
-        )
-        return [Finding("info", "damping from excitation", text)]
+        return []
     active = scales(database) > 0.0
     worst: tuple[float, float, str, float, float] | None = None
     clean = ~suspect_rows(database)
@@ -155,6 +137,17 @@ def energy_findings(database: HydroDatabase, band: Band | None = None) -> list[F
     return [Finding(severity, "damping from excitation", text, error, omega)]
 
 
+def unchecked_energy(database: HydroDatabase) -> list[Finding]:
+    """Say where the headings do not suffice: no finding of the law, which does not judge there."""
+    if database.heading.size == 0 or energy_identity(database) is not None:
+        return []
+    text = (
+        "not checked: needs headings around the circle (or 0..180 deg with symmetry about "
+        "y = 0), or a body of revolution"
+    )
+    return [Finding("info", "damping from excitation", text)]
+
+
 def depth_findings(db: HydroDatabase) -> list[Finding]:
     """Warn where damping and force of heave agree in water of another depth only.
 
@@ -182,55 +175,14 @@ def depth_findings(db: HydroDatabase) -> list[Finding]:
     return [Finding("warning", "water depth", text, omega=float(db.omega[0]))]
 
 
-def _circle(db: HydroDatabase) -> Array | None:
-    """Weights (nh,) [rad] of the integral over all directions; None if the headings leave gaps."""
-    # each direction once: a full turn closes headings that go all round
-    order = np.argsort(db.heading)
-    order = order[db.heading[order] - db.heading.min() < 2.0 * np.pi - 1e-6]
-    beta = db.heading[order]
-    steps = np.diff(np.r_[beta, beta[0] + 2.0 * np.pi])
-    if beta.size >= 4 and steps.max() <= LARGEST_STEP and steps.min() > 1e-6:
-        weight = np.zeros(db.heading.size)
-        weight[order] = 0.5 * (steps + np.roll(steps, 1))
-        return weight
-    half = np.sort(db.heading)
-    ends = np.isclose(half[[0, -1]], [0.0, np.pi], atol=1e-6)
-    if not ends.all() or np.diff(half).max() > LARGEST_STEP or not _symmetric_about_y(db):
-        return None
-    gaps = np.diff(half)
-    weight = np.empty(db.heading.size)
-    # both halves of the circle: the mirrored force has the same size
-    weight[np.argsort(db.heading)] = np.r_[gaps, 0.0] + np.r_[0.0, gaps]
-    return weight
-
-
-def _largest_step(db: HydroDatabase) -> float:
-    """Largest step [rad] between the headings, mirrored at y = 0 if they cover half the circle."""
-    beta = np.unique(np.mod(np.r_[db.heading, -db.heading], 2.0 * np.pi).round(9))
-    return float(np.diff(np.r_[beta, beta[0] + 2.0 * np.pi]).max())
-
-
-def _extent(db: HydroDatabase) -> float:
+def _radius(db: HydroDatabase) -> float:
     """Radius [m] around the middle of the bodies, by their places and radii of gyration of A_inf.
 
     |F(beta)|^2 has harmonics up to about 2 k R + 4, which the sum over n headings must resolve.
     """
-    points = np.array(
-        [
-            np.zeros(3) if b.reference_point is None else b.reference_point
-            for b in db.bodies.values()
-        ]
-    )
-    place = np.hypot(*(points - points.mean(axis=0))[:, :2].T).max()
-    mass = np.abs(np.diag(db.added_mass_inf))
-    radius = 0.0
-    for body in db.bodies:
-        mine = [(m, label) for m, label in zip(mass, db.labels, strict=True) if label.body == body]
-        turning = [m for m, label in mine if label.is_rotation]
-        going = [m for m, label in mine if label.is_translation]
-        if turning and going and max(going) > 0.0:
-            radius = max(radius, float(np.sqrt(max(turning) / max(going))))
-    return float(place + 1.5 * radius)
+    places = extent(db, list(db.bodies))
+    turning = max(gyration(db, name) for name in db.bodies)
+    return (places if np.isfinite(places) else 0.0) + 1.5 * turning
 
 
 def _symmetric_about_y(db: HydroDatabase) -> bool:

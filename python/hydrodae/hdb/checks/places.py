@@ -14,20 +14,18 @@ small; that height is above the ground.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import j1
 
+from hydrodae.hdb.checks.motions import motions
+from hydrodae.hdb.checks.shapes import away, width
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
-from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.support.arrays import Array
 
-#: Longest k times the larger body, and k times the distance up to which the waves meet in order.
-LONG, FARTHEST = 1.0, 3.5
+#: Longest k times the length of a body, and the distance of bodies whose waves meet in order.
+LONG, FARTHEST = 1.7, 3.5
 #: Fewest frequencies, correlation that is no chance, least share of the distance along a motion.
 FEWEST, SURE, ALONG = 4, 0.9, 0.5
-#: Inertia over stiffness up to which a floating body's heave force is that of its waterplane.
-FOLLOWS = 0.5
 #: A_14 and A_25 over A_15 and A_24 that no hull has, and over the root of A_11 A_44 that matters.
 CROSSED, MATTERS = 3.0, 0.02
 #: Difference of A_11 and A_22 from which they have main axes.
@@ -44,7 +42,7 @@ def place_findings(database: HydroDatabase) -> list[Finding]:
     Returns
     -------
     list of Finding
-        Errors only: at most one of pairs of bodies, and one of each body.
+        At most one of pairs of bodies, and an error of each body whose motions are mixed up.
     """
     found = _sides(database)
     for name in database.bodies:
@@ -56,68 +54,33 @@ def place_findings(database: HydroDatabase) -> list[Finding]:
 
 def _sides(db: HydroDatabase) -> list[Finding]:
     """Report bodies whose coupling has the sign of the other side."""
-    at = {label: i for i, label in enumerate(db.coordinates)}
-    k, b = wavenumber(db.omega, db.water_depth, db.gravity), db.radiation_damping
+    b, table = db.radiation_damping, motions(db)
     wrong: list[tuple[float, str, str]] = []
-    for one in db.bodies:
-        for other in db.bodies:
-            i3 = at.get(f"{other}.heave")
-            away = _away(db, one, other)
-            if i3 is None or away is None or not np.hypot(*away) > 0.0:
+    judged = 0
+    for heave in (m for m in table if m.label.dof == 2):
+        for m in (m for m in table if m.label.dof < 2):
+            way = away(db, m.label.body, heave.label.body)
+            distance = 0.0 if way is None else float(np.hypot(*way))
+            if way is None or abs(way[m.label.dof]) < ALONG * distance or distance == 0.0:
                 continue
-            distance = float(np.hypot(*away))
-            long = (k * _width(db, one, other) < LONG) & (k * distance < FARTHEST)
-            long &= _follows(db, other, i3)
-            for dof, part in zip(("surge", "sway"), away / distance, strict=True):
-                i = at.get(f"{one}.{dof}")
-                if i is None or abs(part) < ALONG or np.count_nonzero(long) < FEWEST:
-                    continue
-                own = np.sqrt(np.maximum(b[long, i, i] * b[long, i3, i3], 0.0))
-                expected = -np.sqrt(2.0) * own * j1(k[long] * distance) * part
-                stored = b[long, i, i3]
-                size = float(np.linalg.norm(expected) * np.linalg.norm(stored))
-                if size > 0.0 and float(expected @ stored) < -SURE * size:
-                    wrong.append((distance, f"{one}.{dof}", f"{other}.heave"))
+            long = (m.k * max(m.length, heave.length) < LONG) & (m.k * distance < FARTHEST)
+            long &= heave.follows
+            if np.count_nonzero(long) < FEWEST:
+                continue
+            own = np.sqrt(np.maximum(m.stored[long] * heave.stored[long], 0.0))
+            part = way[m.label.dof] / distance
+            expected = -np.sqrt(2.0) * own * j1(m.k[long] * distance) * part
+            stored = b[long, m.column, heave.column]
+            size = float(np.linalg.norm(expected) * np.linalg.norm(stored))
+            judged += size > 0.0
+            if size > 0.0 and float(expected @ stored) < -SURE * size:
+                wrong.append((distance, str(m.label), str(heave.label)))
     if not wrong:
-        return []
-    _, motion, heave = min(wrong)
-    text = (
-        f"B of {motion} by {heave} has the sign of bodies in each other's places: are rows of two "
-        f"bodies exchanged, or their places, or the signs of an axis?"
-    )
+        text = f"{judged} couplings of bodies have the signs of their places"
+        return [Finding("info", "places of bodies", text, float(judged))] if judged else []
+    _, motion, by = min(wrong)
+    text = f"B of {motion} by {by} has the sign of bodies in each other's places"
     return [Finding("error", "places of bodies", text, float(len(wrong)))]
-
-
-def _away(db: HydroDatabase, one: str, other: str) -> Array | None:
-    """Horizontal way from one body to another [m]; None where that is not known."""
-    points = []
-    for name in (one, other):
-        body = db.bodies[name]
-        statics = body.hydrostatics
-        point = body.reference_point if statics is None else statics.center_of_buoyancy
-        if point is None or one == other:
-            return None
-        points.append(np.asarray(point, dtype=float)[:2])
-    return np.asarray(points[1] - points[0])
-
-
-def _width(db: HydroDatabase, *names: str) -> float:
-    """Cube root of the largest added volume of some bodies [m]."""
-    own = np.abs(np.diag(db.added_mass_inf)) / db.rho
-    sizes = [
-        own[i] for i, label in enumerate(db.labels) if label.body in names and label.is_translation
-    ]
-    return float(np.cbrt(max(sizes, default=0.0)))
-
-
-def _follows(db: HydroDatabase, name: str, heave: int) -> NDArray[np.bool_]:
-    """Where (nw,) the heave force of a body is that of its waterplane; nowhere if unknown."""
-    statics = db.bodies[name].hydrostatics
-    if statics is None:
-        return np.zeros(db.omega.size, bool)
-    stiffness = db.rho * db.gravity * statics.waterplane_area
-    mass = db.rho * statics.displaced_volume + db.added_mass[:, heave, heave]
-    return np.asarray(db.omega**2 * mass < FOLLOWS * stiffness)
 
 
 def _block(db: HydroDatabase, name: str) -> Array | None:
@@ -148,7 +111,7 @@ def _crossed(db: HydroDatabase, name: str) -> str:
         return ""
     return (
         f"its added mass couples surge with roll and sway with pitch, {cross / own:.2g} of their "
-        f"own, and hardly surge with pitch: are rows of two motions exchanged?"
+        f"own, and hardly surge with pitch"
     )
 
 
@@ -159,13 +122,10 @@ def _buried(db: HydroDatabase, name: str) -> str:
         return ""
     level = float(np.asarray(point)[2])
     heights = (level + a[3, 0] / a[0, 0], level - a[2, 1] / a[1, 1])
-    if max(heights) > ABOVE * _width(db, name):
+    if max(heights) > ABOVE * width(db, name):
         where = f"{max(heights):.4g} m, far above the water"
     elif min(heights) < -(1.0 + BELOW) * db.water_depth:
         where = f"{min(heights):.4g} m, below the ground at {-db.water_depth:g} m"
     else:
         return ""
-    return (
-        f"its added mass of surge or sway acts at z = {where}: is it of another body, or are its "
-        f"moments about another point?"
-    )
+    return f"its added mass of surge or sway acts at z = {where}"

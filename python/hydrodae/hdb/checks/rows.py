@@ -8,6 +8,8 @@ from __future__ import annotations
 import numpy as np
 
 from hydrodae.hdb.checks.ground import standing
+from hydrodae.hdb.checks.motions import FEWEST, LONGEST
+from hydrodae.hdb.checks.shapes import length
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.relations.dispersion import wavenumber
@@ -17,8 +19,6 @@ from hydrodae.support.arrays import Array
 EMPTY = 1e-9
 #: Share of the largest added mass of its kind from which a negative one is no noise.
 NOISE = 0.05
-#: Longest k times the width of a hull, and fewest frequencies there, by which B shows the unit.
-LONG, FEWEST = 0.8, 2
 #: Change of A over the frequencies, as a share of the largest, that takes damping: of some motion,
 #: and of a single one, whose B may be too small for the digits of a file.
 CHANGES, MAKES_WAVES = 1e-3, 0.01
@@ -137,10 +137,9 @@ def _open(db: HydroDatabase) -> list[Finding]:
         return []
     unseen = ["a factor of A and B together (density, length scale)"]
     k = wavenumber(db.omega, db.water_depth, db.gravity)
-    for body in db.bodies.values():
-        statics = body.hydrostatics
-        width = np.cbrt(max(statics.displaced_volume, 0.0)) if statics else np.inf
-        if np.count_nonzero(k * width < LONG) < FEWEST:
+    for name, body in db.bodies.items():
+        long = k * length(db, name, k) < LONGEST
+        if body.hydrostatics is None or np.count_nonzero(long) < FEWEST:
             unseen.append("a factor of all frequencies, or of B (no hull, or no long waves)")
             if any(b.hydrostatics is None for b in db.bodies.values()):
                 unseen.append("rows of surge and heave in each other's places (no hull)")

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.hdb.checks.band import Band, inside, largest_of_kind
+from hydrodae.hdb.checks.shapes import phase
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.database.scales import scales
@@ -40,17 +41,9 @@ MOST = 0.05
 
 def without_phase(database: HydroDatabase) -> Complex:
     """F e^{i k.x}, (nw, nh, n) [N/m, N m/m], x where each body floats (the origin if unknown)."""
-    points = np.array([_place(database, label.body) for label in database.labels])
-    heading = database.heading
-    along = np.outer(np.cos(heading), points[:, 0]) + np.outer(np.sin(heading), points[:, 1])
-    k = wavenumber(database.omega, database.water_depth, database.gravity)[:, None, None]
-    return np.asarray(database.excitation * np.exp(1j * k * along))
-
-
-def _place(database: HydroDatabase, body: str) -> Array:
-    held = database.bodies[body]
-    known = held.hydrostatics is not None or held.reference_point is not None
-    return database.phase_point(body) if known else np.zeros(3)
+    k = wavenumber(database.omega, database.water_depth, database.gravity)
+    turns = {name: phase(database, name, k) for name in database.bodies}
+    return database.excitation * np.stack([turns[c.body] for c in database.labels], axis=-1)
 
 
 def alone(

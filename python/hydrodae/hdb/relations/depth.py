@@ -101,26 +101,43 @@ def depth_told(
     return DepthTold(best, float(agree[0]), float(agree[-1]))
 
 
+def circle(heading: Array) -> tuple[Array, float, bool] | None:
+    """Return weights (nh,) of the mean over all directions, 1 in all; None of too few headings.
+
+    Returns
+    -------
+    weights : (nh,) array
+        Of headings all round, each direction once; or from 0 to 180 degrees, mirrored.
+    widest : float
+        Largest step between neighbours [rad].
+    half : bool
+        Whether the half circle was mirrored, which needs a hull that is symmetric about y = 0.
+    """
+    order = np.argsort(heading)
+    order = order[heading[order] - heading[order[:1]] < 2.0 * np.pi - 1e-6]
+    beta = heading[order]
+    if beta.size < 4:
+        return None
+    gaps, weights = np.diff(beta), np.zeros(heading.size)
+    half = bool(np.allclose(beta[[0, -1]], [0.0, np.pi], atol=1e-6))
+    if half:
+        shares = np.r_[gaps, 0.0] + np.r_[0.0, gaps]
+    else:
+        gaps = np.r_[gaps, beta[0] + 2.0 * np.pi - beta[-1]]
+        shares = gaps + np.roll(gaps, 1)
+    weights[order] = shares / shares.sum()
+    return weights, float(gaps.max()), half
+
+
 def mean_over_headings(heading: Array, square: Array) -> Array | None:
     """Mean of |F|^2 (nw, nh) over all directions; None if the headings leave gaps.
 
     Headings all round, or from 0 to 180 degrees of a hull that is symmetric about y = 0.
     """
-    order = np.argsort(heading)
-    beta, values = heading[order], square[:, order]
-    turn = beta - beta[0] < 2.0 * np.pi - 1e-6
-    beta, values = beta[turn], values[:, turn]
-    if beta.size < 4:
+    found = circle(heading)
+    if found is None or found[1] > np.pi / 2.0 + 1e-6:
         return None
-    gaps = np.diff(beta)
-    if np.isclose(beta[0], 0.0, atol=1e-6) and np.isclose(beta[-1], np.pi, atol=1e-6):
-        ends = np.r_[gaps, 0.0] + np.r_[0.0, gaps]
-    else:
-        gaps = np.r_[gaps, beta[0] + 2.0 * np.pi - beta[-1]]
-        ends = gaps + np.roll(gaps, 1)
-    if gaps.max() > np.pi / 2.0 + 1e-6:
-        return None
-    return np.asarray(values @ ends / ends.sum())
+    return np.asarray(square @ found[0])
 
 
 def depth_of_bodies(

@@ -22,7 +22,10 @@ def wavenumber(omega: ArrayLike, depth: float, gravity: float) -> Array:
     for _ in range(30):
         t = np.tanh(x)
         slope = t + x * (1.0 - t**2)
-        x = x - np.divide(x * t - a, slope, out=np.zeros_like(x), where=slope > 0.0)
+        step = np.divide(x * t - a, slope, out=np.zeros_like(x), where=slope > 0.0)
+        x, before = x - step, x
+        if np.array_equal(x, before):
+            break  # further steps change nothing
     return x / depth
 
 

@@ -17,12 +17,17 @@ All functions take tables with the frequency first and any shape behind it, e.g.
 from __future__ import annotations
 
 import numpy as np
-from numpy.polynomial.legendre import leggauss
 from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline, PchipInterpolator
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.relations.tails import fit_tail, no_tail, tail_cosine, tail_kramers_kronig
+from hydrodae.hdb.relations.tails import (
+    fit_tail,
+    leggauss,
+    no_tail,
+    tail_cosine,
+    tail_kramers_kronig,
+)
 from hydrodae.support.arrays import Array, Complex
 
 BAND_FROM = 0.3  # A_inf: least squares over w > BAND_FROM w_max

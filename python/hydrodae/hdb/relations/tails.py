@@ -6,9 +6,10 @@ B(w) ~ B(w_max) (w / w_max)^-n, pair by pair, and its parts of K(t) and of A_inf
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
-from numpy.polynomial.legendre import leggauss
+from numpy.polynomial import legendre
 from numpy.typing import ArrayLike, NDArray
 
 from hydrodae.support.arrays import Array
@@ -16,6 +17,12 @@ from hydrodae.support.arrays import Array
 TAIL_POWERS = (2.0, 8.0)  # range of n in c w^-n
 TAIL_FROM = 0.7  # the tail is fitted to w > TAIL_FROM w_max
 TAIL_SCATTER = 0.05  # largest rms of ln|B| about its fit that counts as clean [-]
+
+
+@cache
+def leggauss(count: int) -> tuple[Array, Array]:
+    """Nodes and weights of Gauss-Legendre quadrature on -1..1, (count,) each."""
+    return legendre.leggauss(count)
 
 
 @dataclass(frozen=True)
