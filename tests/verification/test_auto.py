@@ -87,7 +87,7 @@ def test_a_stiff_scene_is_made_by_radau(tmp_path: Path) -> None:
 
 def test_where_explicit_rk_loses_energy_another_method_goes_on(tmp_path: Path) -> None:
     """The guard ends explicit_rk by itself; `auto` leaves it before. The summary has the reason."""
-    scene = suite.all_scenes((303,))["table_stroke_s303"]
+    scene = suite.all_scenes((303,))["oscillator_s303"]
     loose = {"rtol": 1e-2}
     assert "energy_guard" in outcome(scene, "explicit_rk", tmp_path, **loose).reason
     assert outcome(scene, "auto", tmp_path, **loose).outcome == PASS
