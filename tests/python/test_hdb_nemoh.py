@@ -149,6 +149,16 @@ def test_moments_about_two_points_are_refused(tmp_path):
         hdb.read(folder.write(tmp_path / "f"))
 
 
+@pytest.mark.parametrize("beta", ["1.2.3", "+-3", "e5"])
+def test_a_heading_that_is_no_number_is_refused_with_its_line(beta, tmp_path):
+    written = NemohFolder().write(tmp_path / "f")
+    file = written / "Results" / "ExcitationForce.tec"
+    text = re.sub(r"(beta|angle)\s*=\s*\S+", rf"\1 = {beta}", file.read_text(), flags=re.IGNORECASE)
+    file.write_text(text)
+    with pytest.raises(DatabaseError, match=r"ExcitationForce.tec:\d+: no heading in"):
+        hdb.read(written)
+
+
 def test_missing_files_are_named(tmp_path):
     (tmp_path / "sphere_nemoh").mkdir()
     with refused("missing", "database"):

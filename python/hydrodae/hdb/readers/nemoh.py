@@ -28,8 +28,9 @@ from hydrodae.support.naming import names_file
 Mode = tuple[int, int]  # body, degree of freedom
 
 _MOTION = re.compile(r"body\s+(\d+)\s+in\s+DoF\s+(\d+)", re.IGNORECASE)
-_BETA = re.compile(r"beta\s*=\s*([-+.\dE]+)", re.IGNORECASE)
-_ANGLE = re.compile(r"angle\s*=\s*([-+.\de]+)", re.IGNORECASE)
+_NUMBER = r"\s*=\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)(?![\w.+-])"
+_BETA = re.compile("beta" + _NUMBER, re.IGNORECASE)
+_ANGLE = re.compile("angle" + _NUMBER, re.IGNORECASE)
 FORCE_FILES = {
     "excitation": "ExcitationForce.tec",
     "diffraction": "DiffractionForce.tec",
