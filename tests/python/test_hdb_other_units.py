@@ -56,6 +56,30 @@ def test_tonnes_and_kilonewtons(pair, tables, forces):
     assert "in long waves implies" in found
 
 
+@pytest.mark.parametrize("level", [0.01, 0.03, 0.1])
+def test_noise_is_no_unit(pair, level):
+    """A and B with noise of their largest over the frequencies, symmetric."""
+    random = np.random.default_rng(7)
+    noisy = {}
+    for name in ("added_mass", "radiation_damping"):
+        table = getattr(pair, name)
+        noise = random.standard_normal(table.shape) * np.abs(table).max(axis=0)
+        noisy[name] = table + 0.5 * level * (noise + noise.swapaxes(1, 2))
+    assert not unit_errors(dataclasses.replace(pair, **noisy))
+
+
+@pytest.mark.parametrize("first", [6, 12])
+@pytest.mark.parametrize("motion", ["surge", "heave", "pitch"])
+def test_tables_that_begin_late_are_in_no_other_unit(pair, first, motion):
+    """Of one motion, to where B has nearly reached its peak."""
+    one = pair.select([c for c in pair.coordinates if c.endswith(motion)])
+    assert not unit_errors(one.at_frequencies(np.arange(one.omega.size) >= first))
+
+
+def unit_errors(db: hdb.HydroDatabase) -> list[str]:
+    return [f.message for f in unit_findings(db) if f.severity == "error"]
+
+
 def hull(db: hdb.HydroDatabase, **factors: float) -> hdb.HydroDatabase:
     """Hydrostatics with some of their fields multiplied."""
     bodies = {}

@@ -152,9 +152,12 @@ def _heave(m: Motion, row: int) -> list[Finding]:
 
 def _displacement(m: Motion, row: int) -> list[Finding]:
     db, hs = m.db, m.body.hydrostatics
-    if hs is None or m.k[row] * m.length > LONG:
+    if hs is None:
         return []
-    fade = float(decay(m.k[row], db.water_depth, float(hs.center_of_buoyancy[2])))
+    height = float(hs.center_of_buoyancy[2])
+    if m.k[row] * max(m.length, 2.0 * abs(height)) > LONG:
+        return []  # a deep body feels more than the acceleration at one height
+    fade = float(decay(m.k[row], db.water_depth, height))
     added = 0.0 if db.excitation_split else m.added[row]
     moved = abs(m.force(pushing(db))[row]) / (m.k[row] * db.gravity) - added
     volume, stated = float(moved / (db.rho * fade)), hs.displaced_volume

@@ -258,18 +258,18 @@ def _settle_limits(data: SourceData, a: Array, estimate: Array, doubt: Array) ->
         return
     first, limit, room = np.diag(a[0]), np.diag(estimate), 3.0 * np.diag(doubt)
     # only coordinates whose two limits are apart can decide
-    tells = np.abs(first - limit) > room + 0.1 * np.abs(first)
+    apart = np.abs(first - limit) > room + 0.1 * np.abs(first)
 
     def near(table: Array | None) -> NDArray[np.bool_]:
         """Report which diagonal entries are those of w = inf; none of a table that is not there."""
         off = np.inf if table is None else np.abs(np.diag(table) - limit)
-        return np.asarray(off < room + 0.05 * np.abs(limit))[tells]
+        return np.asarray(off < room + 0.05 * np.abs(limit))[apart]
 
-    exchanged = bool(tells.any()) and not near(high).any()
+    exchanged = bool(apart.any()) and not near(high).any()
     if zero is not None:
         exchanged &= bool(near(zero).all())
     elif high is not None:
-        exchanged &= np.allclose(np.diag(high)[tells], first[tells], rtol=0.02)
+        exchanged &= np.allclose(np.diag(high)[apart], first[apart], rtol=0.02)
     if not exchanged:
         return
     data.added_mass_inf = zero
